@@ -27,7 +27,7 @@ local function curve(s, quantity, keys, points) -- over the beam
 end
 for _, case in ipairs(cases) do
   local s <const> = continuous(case[2])
-  deflections[#deflections + 1] = curve(s, "deflection", { name = case[1], style = "line" }, 400)
+  deflections[#deflections + 1] = curve(s, "deflection", { name = case[1], style = #deflections < 1 and "both" or "line", twin = #deflections == 2 or nil }, #deflections < 1 and 20 or 400)
   local springs <const> = case[1]:find "springs" -- its moments are nearly those of resting: points on that line
   moments[#moments + 1] = curve(s, "moment", { name = case[1], style = springs and "points" or "line" }, springs and 32 or 400)
   local reactions, sum, off = {}, 0, {}
@@ -40,10 +40,10 @@ for _, case in ipairs(cases) do
   print(("%-27s reactions %s, lifted off at %s"):format(case[1], table.concat(reactions, " "), #off > 0 and table.concat(off, ", ") or "none"))
   assert(math.abs(sum - 10.6) < 1e-9)
 end
-continuous(law.signorini()):render{ file = "images/beam.png", title = "A beam resting on five supports, loaded on one span" }
+continuous(law.signorini()):render{ file = "images/beam.png", title = "A beam resting on five supports" }
 table.insert(deflections, { name = "supports", x = { 0, 1, 2, 3, 4 }, y = { 0, 0, 0, 0, 0 }, style = "points" })
-dotyk.chart{ file = "images/beam_deflection.png", title = "A beam on five supports: deflection", x = "x", y = "deflection", series = deflections }
-dotyk.chart{ file = "images/beam_moment.png", title = "A beam on five supports: bending moment", x = "x", y = "M = −EJ u″", series = moments }
+dotyk.chart{ file = "images/beam_deflection.png", title = "Deflection of the beam", x = "x", y = "deflection", x_range = { -0.15, 4.15 }, series = deflections }
+dotyk.chart{ file = "images/beam_moment.png", title = "Bending moment of the beam", x = "x", y = "M = −EJ u″", series = moments }
 
 -- 2. Limits of laws, on a cantilever's tip and on the rotation of a beam's end on two supports.
 local ends <const> = {

@@ -47,8 +47,8 @@ end
 
 local kinds <const> = {
   { name = "springs", law = law.elastic(k), exact = beam(half) },
-  { name = "springs without tension", law = law.one_sided_elastic(k), exact = beam(contact), touches = contact },
-  { name = "springs up to a greatest pressure", law = law.capped_elastic(k, 0.7 * unit) } }
+  { name = "no tension", law = law.one_sided_elastic(k), exact = beam(contact), touches = contact },
+  { name = "up to 0.7", law = law.capped_elastic(k, 0.7 * unit) } }
 
 local series <const> = {}
 print(("half length of contact in beam theory, pi/2 lambda = %.4f; pressures are scaled by lambda load/2 = %.4f"):format(contact, load * lambda / 2))
@@ -78,15 +78,15 @@ for number, kind in ipairs(kinds) do
       bx[#bx + 1] = (kind.touches or half) * i / 24
       by[#by + 1] = kind.exact(bx[#bx]) / unit
     end
-    table.insert(series, { name = kind.name .. ", beam theory", x = bx, y = by, style = "points" })
+    table.insert(series, { name = kind.name == "springs" and "beam theory" or nil, x = bx, y = by, reference = true })
     assert(apart < 0.01 * (160 / cells)^2 * unit) -- bilinear elements are too stiff in bending, with h^2
   end
   if number == 2 then
     assert(math.abs(touches - contact) < 0.05 * contact + half / cells)
     s:render{ file = "images/foundation_strip.png", field = "xx", deform = 5, supports = true, loads = true,
-              size = { 1200, 560 }, title = "Half a strip on a foundation without tension" }
+              size = { 1200, 560 }, title = "Half a strip on springs without tension" }
   end
 end
-dotyk.chart{ file = "images/foundation.png", title = "Pressure under a strip pressed in its middle", x = "distance from the middle",
-  y = "pressure / (½ λ load)", series = series }
+dotyk.chart{ file = "images/foundation.png", title = "A strip pressed in its middle", x = "distance from the middle",
+  y = "pressure / (½ λ load), λ of the beam", series = series }
 print "images/foundation.png, images/foundation_strip.png"

@@ -126,6 +126,6 @@ for _, case in ipairs(known) do
     end
   end
 end
-dotyk.chart{ file = "images/plate_orders.png", title = "Clamped plate, u = sin² πx sin² πy: relative errors", x = "length of a cell", y = "error",
+dotyk.chart{ file = "images/plate_orders.png", title = "Clamped, u = sin² πx sin² πy", x = "length of a cell", y = "relative error",
   log = "xy", series = series, slopes = { 1, 2, 4 } }
 print "images/plate_orders.png"

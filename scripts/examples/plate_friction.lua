@@ -110,7 +110,7 @@ for power = 1, 5 do
 end
 assert(before < 2 / coarse^2) -- what the mesh leaves
 
-dotyk.chart{ file = "images/plate_friction_iterations.png", title = "Edge friction: the most iterations of six cases", x = "cells along a side", y = "iterations",
+dotyk.chart{ file = "images/plate_friction_iterations.png", title = "Edge friction: the most of six cases", x = "cells along a side", y = "iterations", y_range = { 1, 1000 },
   log = "xy", series = series }
 dotyk.solve(plate(coarse, "morley", 3)):render{ file = "images/plate_friction.png", view = "plan", title = "Edge friction: loaded by 3 of 4" }
 print "images/plate_friction.png, images/plate_friction_iterations.png"

@@ -89,6 +89,6 @@ for _, element in ipairs{ "morley", "hct" } do
 end
 local shown <const> = circle(finest, "morley")
 shown:render{ file = "images/plate_obstacle.png", title = "A clamped circular plate pressed onto a flat floor" }
-shown:render{ file = "images/plate_obstacle_plan.png", view = "plan", field = "von_mises", title = "Where it bears on the floor" }
+circle(finest, "hct"):render{ file = "images/plate_obstacle_plan.png", view = "plan", field = "von_mises", title = "Where it bears on the floor" }
 draped(finest, "morley"):render{ file = "images/plate_obstacle_bump.png", title = "A free plate on a bump" }
 print "images/plate_obstacle.png, images/plate_obstacle_plan.png, images/plate_obstacle_bump.png"

@@ -9,7 +9,7 @@
 -- images/supports_elastic.png: 5, 6, 13 and 14, springs and one-sided springs. images/supports_unequal.png:
 -- 15, springs that push with one stiffness and pull with another. images/supports_capped.png: 10, springs with a
 -- greatest reaction. images/supports_one_sided.png: 7, Signorini's conditions.
--- images/supports_friction.png: 8, 9, 11 and 12, rigid friction. images/supports_breaking.png: 16 and 17, laws that are not monotone.
+-- images/supports_friction.png: 8 and 11, rigid friction; images/supports_one_sided_friction.png: 9 and 12. images/supports_breaking.png: 16 and 17, laws that are not monotone.
 -- A table tells every working point.
 
 local law <const> = dotyk.law
@@ -57,7 +57,8 @@ local figures <const> = {
   { file = "supports_friction", title = "Rigid friction", rows = {
     { title = "8, 11. Friction, sticking", support = "right", solution = solved(clamped, { deflection = law.friction(0.5) }, -1) },
     { title = "8, 11. Friction, slipping", support = "right", solution = solved(clamped, { deflection = law.friction(0.2) }, -1) },
-    { title = "8, 11. Friction about the rotation, slipping", support = "right", of = "rotation", solution = solved(pinned, { deflection = law.prescribed(0), rotation = law.friction(0.06) }, -1) },
+    { title = "8, 11. Friction about the rotation, slipping", support = "right", of = "rotation", solution = solved(pinned, { deflection = law.prescribed(0), rotation = law.friction(0.06) }, -1) } } },
+  { file = "supports_one_sided_friction", title = "One-sided rigid friction", rows = {
     { title = "9, 12. One-sided friction, slipping", support = "right", solution = solved(clamped, { deflection = law.one_sided_friction(0.2) }, -1) },
     { title = "9, 12. One-sided friction, lifted off", support = "right", solution = solved(clamped, { deflection = law.one_sided_friction(0.2) }, -1, tip(0.6)) },
     { title = "9, 12. One-sided friction about the rotation, sticking", support = "right", of = "rotation", solution = solved(pinned, { deflection = law.prescribed(0), rotation = law.one_sided_friction(0.2) }, -1) } } },
@@ -78,4 +79,4 @@ for _, figure in ipairs(figures) do
   end
   dotyk.support_gallery{ file = "images/" .. figure.file .. ".png", title = figure.title, rows = figure.rows }
 end
-print "images/supports_classical.png, supports_elastic.png, supports_unequal.png, supports_capped.png, supports_one_sided.png, supports_friction.png, supports_breaking.png"
+print "images/supports_classical.png, supports_elastic.png, supports_unequal.png, supports_capped.png, supports_one_sided.png, supports_friction.png, supports_one_sided_friction.png, supports_breaking.png"

@@ -50,7 +50,7 @@ for i = 1, steps do
   if i == steps // 2 then line "10 min of hot air" end
   if i == math.floor(0.61 * steps) then
     line "2 min of cold air, lifted"
-    b:render{ file = "images/thermoelastic_state.png", title = "The strip after 2 min of cold air", size = { 1000, 1150 },
+    b:render{ file = "images/thermoelastic_state.png", title = "The strip after 2 min of cold air", size = { 2100, 1500 },
       units = { length = "m", force = "N", temperature = "K" } }
   end
   if i == steps then line "10 min of cold air" end
@@ -62,8 +62,8 @@ assert(least > -1e-6 and most > 10 and math.min(table.unpack(history.force)) == 
 print(("the stop bears %.0f N under the weight alone, %.0f N at most, and none while the tip is up to %.0f µm above it")
   :format(history.force[1], math.max(table.unpack(history.force)), most))
 
-dotyk.chart{ file = "images/thermoelastic.png", title = "A strip on its stop, under hot air for 10 min, then cold", x = "time [min]", panels = {
-  { y = "over 20 °C [K]", series = { { name = "air above", x = history.t, y = history.air }, { name = "strip near its tip", x = history.t, y = history.mean } } },
+dotyk.chart{ file = "images/thermoelastic.png", title = "A strip on its stop: hot, then cold air", x = "time [min]", panels = {
+  { y = "warmth over 20 °C [K]", series = { { name = "air above", x = history.t, y = history.air }, { name = "strip near its tip", x = history.t, y = history.mean } } },
   { y = "force of the stop [N]", series = { { x = history.t, y = history.force, style = "line" } } },
   { y = "tip above the stop [µm]", series = { { x = history.t, y = history.tip, style = "line" } } } } }
 dotyk.chart{ file = "images/thermoelastic_lines.png", title = "Deflection of the strip", x = "x [m]", y = "deflection [mm]", series = lines }
@@ -84,14 +84,14 @@ for order = 1, 2 do
     for i = 1, #values do error = math.max(error, math.abs(values[i] / exact[i] - 1)) end
     x[#x + 1], y[#y + 1], defects[#defects + 1] = 1200 / n, error, math.abs(energy.defect) / energy.dissipated
   end
-  orders[order] = { name = ({ "implicit Euler", "TR-BDF2" })[order], x = x, y = y }
+  orders[order] = { name = ({ "deflection, implicit Euler", "deflection, TR-BDF2" })[order], x = x, y = y }
   balance[order] = { name = ({ "energy, implicit Euler", "energy, TR-BDF2" })[order], x = x, y = defects }
   local last = #y
   print(("order %d: errors %.1e … %.1e, falling by %.2f when steps halve; balance of energy off by %.1e … %.1e of what is dissipated")
     :format(order, y[1], y[last], (y[1] / y[last]) ^ (1 / (last - 1)), defects[1], defects[last]))
   assert((y[1] / y[last]) ^ (1 / (last - 1)) > (order == 1 and 1.8 or 3.2))
 end
-dotyk.chart{ file = "images/thermoelastic_orders.png", title = "Error against the step, through closing and opening", x = "step [s]", y = "relative error",
+dotyk.chart{ file = "images/thermoelastic_orders.png", title = "Errors through closing and opening", x = "step [s]", y = "relative error",
   log = "xy", slopes = { 1, 2 }, series = { orders[1], orders[2], balance[1], balance[2] } }
 
 -- Orders in space, everything coupled: a plastic clamped at both ends between two walls, against 256 cells.

@@ -39,6 +39,7 @@ class Solution {
   /// Of the mean curvatures about each vertex, linear on a cell: of order h² within where the mesh is regular, h at the edge with Morley's element.
   Moment moment(double x, double y) const;
   double motion(double x, double y) const;  ///< of the family; 0 without one
+  double deflection(const Place& place) const { return values(place, u_)[0]; }
   double vertex_deflection(int vertex) const { return u_[model_->space.of_vertex(vertex)]; }
   const std::vector<Moment>& vertex_moments() const;
 

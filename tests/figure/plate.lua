@@ -11,7 +11,7 @@ local s <const> = dotyk.solve(dotyk.plate{ mesh = mesh, load = -1, edges = { lef
 check.equal(s:render{ file = "plate.png" }, "plate.png")
 check.equal(size "plate.png", { 1200, 800 })
 check.equal(s:render{ file = "plate.png", view = "plan" }, "plate.png")
-check.equal(size "plate.png", { 1200, 900 })
+check.equal(size "plate.png", { 1200, 1100 })
 for _, field in ipairs{ "none", "deflection", "mxx", "myy", "mxy", "m1", "m2", "von_mises" } do
   for _, view in ipairs{ "surface", "plan" } do
     s:render{ file = "plate.png", view = view, field = field, title = "T", units = { length = "m", force = "kN" }, size = { 400, 300 } }

@@ -351,7 +351,7 @@ TEST_CASE("dots of the pressure on the plan of a grid stand in its rows and colu
   scene.bodies = {brick(2)};
   ContactPicture contact;
   contact.nodes_per_facet = 4;
-  const int nx = 23, ny = 38;  // neither leaves dots on the rim, whose line would cut them
+  const int nx = 29, ny = 53;  // neither leaves dots on the rim, whose line would cut them
   for (int j = 0; j <= ny; ++j)
     for (int i = 0; i <= nx; ++i) {
       ContactNode node;

@@ -59,7 +59,7 @@ end
 local profiles = {}
 for i = 0, 5 do
   local x, y = profile(function(s) return electric:periodic(s, i / 6) end)
-  profiles[#profiles + 1] = { name = ("t = %s"):format(({ "0", "T/6", "T/3", "T/2", "2T/3", "5T/6" })[i + 1]), x = x, y = y, style = "line" }
+  profiles[#profiles + 1] = { name = ("t = %s"):format(({ "0", "T/6", "T/3", "T/2", "2T/3", "5T/6" })[i + 1]), x = x, y = y, style = i % 3 == 1 and "line" or "both", twin = i % 3 == 2 or nil }
 end
 local x, y = profile(function(s) return electric:stationary(s) end)
 profiles[#profiles + 1] = { name = "stationary", x = x, y = y, reference = true }
@@ -75,9 +75,9 @@ end
 local xe, ye = on_axis(electric)
 local xm, ym = on_axis(magnetic)
 dotyk.chart{ file = "images/channel_axis.png", x = "time [s]", y = "velocity on the axis [m/s]",
-  title = "Mercury, from the initial profile to the periodic state", series = {
+  title = "Mercury, from the start to the periodic state", series = {
     { name = "electric field oscillating", x = xe, y = ye, style = "line" },
-    { name = "magnetic field oscillating", x = xm, y = ym, style = "line" },
+    { name = "magnetic field oscillating", x = xm, y = ym, twin = true, style = "line" },
     { name = "both, by time stepping", x = stepped.x, y = stepped.y, style = "points" } } }
 
 -- 4. Amplitude against frequency.
@@ -114,6 +114,6 @@ for _, liquid in ipairs{ { name = "salt water", make = salt_water },
   for i = 1, #limit.x do table.insert(limits.x, limit.x[i]) table.insert(limits.y, limit.y[i]) end
 end
 series[#series + 1] = { name = "1/(aω)", x = limits.x, y = limits.y, style = "points" }
-dotyk.chart{ file = "images/channel_amplitude.png", title = "The oscillating part of the velocity fades with ω", x = "ω [1/s]", y = "amplitude on the axis [m/s]", log = "xy",
+dotyk.chart{ file = "images/channel_amplitude.png", title = "The oscillating part fades with ω", x = "ω [1/s]", y = "amplitude [m/s]", log = "xy",
   slopes = { -1 }, series = series }
 print "images/channel.png  images/channel_axis.png  images/channel_amplitude.png"

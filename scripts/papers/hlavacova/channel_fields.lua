@@ -164,7 +164,7 @@ for i, f in ipairs(combinations) do
       worst.program, orders = math.max(worst.program, most), orders .. ("   %.0e"):format(most)
     end
     print(line .. "   " .. orders)
-    local curve = common.curve(f.name, { style = "line" })
+    local curve = common.curve(f.name, { style = i == 1 and "line" or "both", twin = i == 3 or i == 5 or nil })
     for n = 0, 240 do curve:add(n / 80, n == 0 and u0 or exact(0, n / 80)) end
     table.insert(curves[component], curve)
   end
@@ -173,13 +173,13 @@ local nothing = common.curve("E along z, from w = 0.2 m/s", { reference = true }
 for n = 0, 240 do nothing:add(n / 80, decay(combinations[1], omega, 0.2):velocity(0, n / 80)) end
 table.insert(curves.w, nothing)
 for component, list in pairs(curves) do
-  local x = {}
-  for n = 1, #points[component] do x[n] = times[(n - 1) % #times + 1] end
-  table.insert(list, { name = "time stepping", x = x, y = points[component], style = "points" })
+  local x, y = {}, {}
+  for n = 2, #points[component], 3 do x[#x + 1], y[#y + 1] = times[(n - 1) % #times + 1], points[component][n] end
+  table.insert(list, { name = "time stepping", x = x, y = y, style = "points" })
 end
-dotyk.chart{ file = "images/papers_channel_fields.png", x = "time [s]", size = { 1100, 950 }, panels = {
-  { title = ("Mercury, M = %.1f, 1 Hz: along the channel, E along z"):format(mercury.hartmann), y = "u(0, t) [m/s]", series = curves.u, x_range = { 0, 3 } },
-  { title = "across it, E along x", y = "w(0, t) [m/s]", series = curves.w, x_range = { 0, 3 } } } }
+dotyk.chart{ file = "images/papers_channel_fields.png", x = "time [s]", size = { 2100, 900 }, columns = 2, panels = {
+  { title = ("Along the channel, E along z: mercury, M = %.1f"):format(mercury.hartmann), y = "u(0, t) [m/s]", series = curves.u, x_range = { 0, 3 } },
+  { title = "Across the channel, E along x", y = "w(0, t) [m/s]", series = curves.w, x_range = { 0, 3 } } } }
 
 -- 3. Mean and fluctuation on the axis, and their limits for ω → ∞: fluctuation times ω.
 local function limits(liquid, i, phase)
@@ -242,11 +242,11 @@ for _, liquid in ipairs{ water, mercury } do
   list[#list + 1] = points
   by_frequency[#by_frequency + 1] = list
 end
-dotyk.chart{ file = "images/papers_channel_fields_phase.png", columns = 2, size = { 1600, 1100 }, panels = {
-  { title = "Mercury, both fields oscillate: mean", x = "phase φ [degrees]", y = "mean of u(0, t) [m/s]", series = by_phase.mean, x_range = { 0, 180 } },
-  { title = "the same: fluctuation", x = "phase φ [degrees]", y = "aω × half the range", series = by_phase.range, x_range = { 0, 180 } },
+dotyk.chart{ file = "images/papers_channel_fields_phase.png", columns = 2, size = { 2100, 1300 }, panels = {
+  { title = "Mercury, both oscillate: mean", x = "phase φ [degrees]", y = "mean u [m/s]", series = by_phase.mean, x_range = { 0, 180 } },
+  { title = "Mercury, both oscillate: fluctuation", x = "phase φ [degrees]", y = "half the range · aω", series = by_phase.range, x_range = { 0, 180 } },
   { title = "Salt water, no pressure gradient", x = "ω [1/s]", y = "half the range [m/s]", log = "xy", slopes = { -1 }, series = by_frequency[1] },
-  { title = "Mercury, −20 kPa/m", x = "ω [1/s]", y = "aω × half the range", log = "x", series = by_frequency[2] } } }
+  { title = "Mercury, −20 kPa/m", x = "ω [1/s]", y = "half the range · aω", log = "x", series = by_frequency[2] } } }
 print "images/papers_channel_fields.png  images/papers_channel_fields_phase.png"
 common.verdict(worst.order < 0.05 and worst.program < 1e-9 and rate < 0.55, (
   "u and w in all combinations: series and stepping differ by an error of order two (to %.3f), the program's series by at most %.0e; "

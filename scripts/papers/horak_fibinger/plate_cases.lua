@@ -103,8 +103,8 @@ end
 -- 3. Loads swept up to the limit.
 local function sweep(title, loads, deflection, load_of, x, y)
   print(("\n%s\n     p    energy       middle       middle of an edge   corner      open"):format(title))
-  local curves <const> = { { name = "middle", x = {}, y = {}, style = "line" }, { name = "middle of an edge", x = {}, y = {}, style = "line" },
-    { name = "corner", x = {}, y = {}, style = "line" } }
+  local curves <const> = { { name = "middle", x = {}, y = {}, style = "line" }, { name = "middle of an edge", x = {}, y = {} },
+    { name = "corner", x = {}, y = {} } }
   local s
   for k, p in ipairs(loads) do
     s = solve(cells, "hct", load_of(p), deflection)
@@ -122,16 +122,16 @@ local function sweep(title, loads, deflection, load_of, x, y)
     assert(math.abs(curves[i].y[#loads] - limit[i]) < 0.1 * 1000 * height) -- the last one is near the limit
   end
   curves[4] = { name = "limit, closed form", x = { x, x, x }, y = limit, style = "points" }
-  return { title = title, x = "resultant of the load, downwards", y = "1000 u", series = curves }
+  return { title = title, x = "resultant of the load, downwards", y = "u · 10³", series = curves }
 end
 local near <const> = { 0.05, 0.02, 0.01, 0.005 } -- below the limit
 local pressing <const>, sliding <const> = {}, {}
 for k = 0, 18 do pressing[#pressing + 1], sliding[#sliding + 1] = 2 - k / 10, 0.1 + 3.8 * k / 18 end
 for _, off in ipairs(near) do pressing[#pressing + 1], sliding[#sliding + 1] = off, 4 - off end
 local function nearest(x, y) return wave(x, y) + height end
-local panels <const> = { sweep("Rigid one-sided edge: no solution left of 0", pressing, edges.signorini, waves, 0, nearest),
-  sweep("One-sided elastic edge, k = 500: no solution left of 0", pressing, edges.springs, waves, 0, nearest),
-  sweep("Edge friction that bears 4: no solution right of 4", sliding, edges.friction, function(p) return -p end, 4, slipping) }
+local panels <const> = { sweep("Rigid one-sided edge: no solution below 0", pressing, edges.signorini, waves, 0, nearest),
+  sweep("One-sided springs: no solution below 0", pressing, edges.springs, waves, 0, nearest),
+  sweep("Friction at the edge: no solution above 4", sliding, edges.friction, function(p) return -p end, 4, slipping) }
 
 -- 4. Stiff springs, relative to Signorini's edge. Of the order 1 once the part that touches no longer changes with k.
 local apart <const> = {}
@@ -139,7 +139,7 @@ print "\nsprings off Signorini's edge, relative\n element     k   energy   order
 for _, element in ipairs{ "morley", "hct" } do
   local rigid <const>, label <const> = solve(cells, element, waves(1), edges.signorini), element == "hct" and "HCT" or "Morley"
   local first <const> = #apart
-  apart[first + 1], apart[first + 2] = { name = label .. ", energy", x = {}, y = {} }, { name = "deflection", x = {}, y = {}, twin = true }
+  apart[first + 1], apart[first + 2] = { name = label .. ", energy", x = {}, y = {} }, { name = label .. ", deflection", x = {}, y = {}, twin = true }
   for power = 3, 9 do
     local s <const>, line = solve(cells, element, waves(1), law.one_sided_elastic(10.0^power)), (" %-7s   1e%d"):format(element, power)
     for i, off in ipairs{ math.abs(s.energy / rigid.energy - 1), math.abs(s:deflection(0.5, 0.5) / rigid:deflection(0.5, 0.5) - 1) } do
@@ -152,10 +152,10 @@ for _, element in ipairs{ "morley", "hct" } do
     print(line)
   end
 end
-panels[4] = { title = "Springs of a one-sided edge against a rigid one", x = "1 / k", y = "relative error", log = "xy", series = apart, slopes = { 1 } }
-dotyk.chart{ file = "images/plate_cases.png", panels = panels, size = { 1000, 1500 } }
+panels[4] = { title = "Springs against a rigid edge", x = "1 / k", y = "relative error", log = "xy", series = apart, slopes = { 1 } }
+dotyk.chart{ file = "images/plate_cases.png", panels = panels, columns = 2, size = { 2100, 1400 } }
 solve(cells, "hct", waves(0.005), edges.signorini):render{ file = "images/plate_limit.png",
-  title = "Waves that hardly press on a one-sided edge touch it in four points" }
+  title = "Waves that hardly press on a one-sided edge" }
 solve(cells, "hct", -4, edges.friction):render{ file = "images/plate_limit_friction.png", view = "plan",
   title = "Friction at its limit all along the edge" }
 print "images/plate_cases.png, images/plate_limit.png, images/plate_limit_friction.png"

@@ -113,8 +113,8 @@ for _, problem in ipairs(problems) do
     of[2].twin = true
     series[#series + 1], series[#series + 2] = of[1], of[2]
   end
-  panels[#panels + 1] = { title = title .. (not known.data and ": data" or name == "springs" and ": stiffness and reactions" or ": bound and reactions"), x = "s, along the edge from (0, 0)", y = "per length", x_range = { 0, 4 } }
-  panels[#panels + 1] = { title = title .. (known.data and ": relative errors" or ": relative errors"), x = "length of a cell", y = "relative error", log = "xy", series = series, slopes = known.data and { 1, 2 } or { 1, 2, 4 } }
+  panels[#panels + 1] = { title = title .. (not known.data and ": data" or name == "springs" and ": stiffness and reactions" or ": bound and reactions"), x = "s, along the edge from (0, 0)", y = known.data and "force per length" or "moment, force per length", x_range = { 0, 4 } }
+  panels[#panels + 1] = { title = title .. ": relative errors", x = "length of a cell", y = "relative error", log = "xy", series = series, slopes = known.data and { 1, 2 } or { 2, 4 } }
 end
 
 -- 2. The free plate without its supports, under cubic data: u = -x³/6 up to rigid motions, Tₙ = ±1 at the right and left, Mₙ = x at the right and
@@ -184,12 +184,12 @@ local function reactions(name) -- computed, at 15 places of a side, off the corn
   return curve
 end
 panels[1].series = { along("g₂, moments", free.M), along("g₃, forces", free.T) }
-panels[3].series = { along("κ and -κ", friction.data, { reference = true }), along(nil, function(...) return -friction.data(...) end, { reference = true }),
+panels[3].series = { along("κ and −κ", friction.data, { reference = true }), along(nil, function(...) return -friction.data(...) end, { reference = true }),
   along("Tₙ", friction.T), reactions "friction" }
 panels[5].series = { along("0.001 k", function(...) return down * springs.data(...) end, { reference = true }), along("Tₙ", springs.T), reactions "springs" }
-dotyk.chart{ file = "images/papers_plate_edges.png", panels = panels, columns = 2, size = { 1700, 1500 } }
+dotyk.chart{ file = "images/papers_plate_edges.png", panels = panels, columns = 2, size = { 2100, 1800 } }
 smooth:render{ file = "images/papers_plate_edges_free.png", title = "Free plate under g₂(s), g₃(s) and f" }
-solved.friction:render{ file = "images/papers_plate_edges_friction.png", view = "plan", title = "Friction κ(s): the edge slips up on the left, down on the right" }
+solved.friction:render{ file = "images/papers_plate_edges_friction.png", view = "plan", title = "Friction κ(s) along the edge" }
 solved.springs:render{ file = "images/papers_plate_edges_springs.png", title = "One-sided springs k(s): the edge is open on the left" }
 print "images/papers_plate_edges.png, …_free.png, …_friction.png, …_springs.png"
 common.verdict(wrong < 1, ("with data that vary along the edge both elements tend to the known deflections with order 1 or 2; lengths that stick or are open are off by %.2f √h at most")

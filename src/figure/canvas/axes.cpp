@@ -83,17 +83,21 @@ double widest_label(const Ticks& ticks, double size) {
   return widest;
 }
 
-Ticks few_ticks(double low, double high, double wanted) {
+Ticks few_ticks(double low, double high, double wanted, double plain) {
   const std::size_t least = wanted < 2.3 ? 2 : 4;
   Ticks out;
-  for (int n = std::clamp(static_cast<int>(wanted), 2, 8); n <= 10 && out.labelled().size() < least; ++n) out = linear_ticks(low, high, n);
+  for (int n = std::clamp(static_cast<int>(wanted), 2, 8); n <= 10 && out.labelled().size() < least; ++n) out = linear_ticks(low, high, n, plain);
   return out;
 }
 
 Ticks spaced_ticks(const Axis& axis, double em) {
   Ticks out;
   for (int n = 8; n >= 2; --n)
-    if (fit(out = few_ticks(axis.low, axis.high, n), axis, em)) return out;
+    if (fit(out = few_ticks(axis.low, axis.high, n), axis, em) && out.labelled().size() > 2) return out;
+  for (const double plain : {1e-3, 1.0})
+    for (int n = 6; n >= 2; --n)
+      if (fit(out = linear_ticks(axis.low, axis.high, n, plain), axis, em) && out.labelled().size() > 2) return out;
+  if (fit(out = few_ticks(axis.low, axis.high, 2), axis, em)) return out;
   // Every second label, counted from zero.
   const std::vector<double> labelled = out.labelled();
   const double step = labelled.size() > 1 ? labelled[1] - labelled[0] : 0;

@@ -25,8 +25,8 @@ struct Ticks {
 };
 
 // Ticks at 1, 2 or 5 times a power of ten in [low, high], about `wanted`; of
-// any finite ends, no more than some hundred.
-Ticks linear_ticks(double low, double high, int wanted);
+// any finite ends, no more than some hundred. Labels of numbers below `plain` have a power of ten beside the axis.
+Ticks linear_ticks(double low, double high, int wanted, double plain = 1e-3);
 
 // Decades in [low, high], both positive; about `wanted` at most have labels,
 // and of hundreds of decades only some have ticks.
@@ -88,8 +88,8 @@ void draw_ticks(Canvas& canvas, const Axes& axes, bool x_labels = true);
 void draw_frame(Canvas& canvas, const Axes& axes);
 double widest_label(const Ticks& ticks, double size);
 // Ticks for so many labels, or a few more: at least four of them labelled, or two where less than 2.3 are wanted, as there is no room for four.
-Ticks few_ticks(double low, double high, double wanted);
-// Of a horizontal axis: as many as have room for their labels.
+Ticks few_ticks(double low, double high, double wanted, double plain = 1e-3);
+// Of a horizontal axis: as many as have room for their labels; three where a power of ten beside the axis makes that room.
 Ticks spaced_ticks(const Axis& axis, double em);
 // "force  (× 10³)".
 std::string axis_name(const std::string& label, const Ticks& ticks);

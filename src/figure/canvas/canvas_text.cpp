@@ -123,16 +123,28 @@ std::string shortened(const std::string& text, double size, double pixels, bool 
 FittedText fitted(const std::string& text, double size, double pixels, bool bold, const std::string& end) {
   constexpr std::size_t kLines = 3;
   FittedText out{fitting_size(text + end, size, pixels, bold), {}};
+  const auto width = [&](const std::string& line) { return text_extent(line, out.size, bold).x; };
+  const auto fits = [&](const std::string& line) { return width(line) <= pixels + 1e-6 * size; };
   std::string rest = text;
-  while (text_extent(rest + end, out.size, bold).x > pixels + 1e-6 * size && out.lines.size() + 1 < kLines) {
+  while (!fits(rest + end) && out.lines.size() + 1 < kLines) {
     std::string line = beginning(rest, "", out.size, pixels, bold);
     const std::size_t space = rest.find_last_of(" \n", line.size());
     if (space != std::string::npos && space > 0) line.resize(space);
     out.lines.push_back(line);
     rest.erase(0, std::min(rest.find_first_not_of(" \n", line.size()), rest.size()));
   }
-  const bool fits = text_extent(rest + end, out.size, bold).x <= pixels + 1e-6 * size;
-  out.lines.push_back((fits ? rest : shortened(rest, out.size, pixels - text_extent(end, out.size, bold).x, bold)) + end);
+  out.lines.push_back((fits(rest + end) ? rest : shortened(rest, out.size, pixels - width(end), bold)) + end);
+  if (out.lines.size() == 1) return out;
+  // Two lines: broken at the first space after which the second is no longer than the first.
+  if (out.lines.size() == 2 && fits(rest + end))
+    for (std::size_t at = text.find_first_of(" \n"); at != std::string::npos; at = text.find_first_of(" \n", at + 1))
+      if (width(text.substr(0, at)) >= width(text.substr(at + 1) + end)) {
+        if (fits(text.substr(0, at))) out.lines = {text.substr(0, at), text.substr(at + 1) + end};
+        break;
+      }
+  double widest = 0;
+  for (const std::string& line : out.lines) widest = std::max(widest, width(line));
+  if (bold) out.size = std::min(size, out.size * pixels / widest);
   return out;
 }
 

@@ -65,7 +65,7 @@ std::string scaled_number(double value, int exponent) {
   return size < 1e3 ? number(scaled) : fixed(scaled, 0);
 }
 
-Ticks linear_ticks(double low, double high, int wanted) {
+Ticks linear_ticks(double low, double high, int wanted, double plain) {
   Ticks out;
   if (!std::isfinite(low) || !std::isfinite(high)) return out;
   if (!(high > low)) {
@@ -80,7 +80,7 @@ Ticks linear_ticks(double low, double high, int wanted) {
   const int step_exponent = static_cast<int>(std::floor(std::log10(step) + 1e-9));
   const double greatest = std::max(std::abs(low), std::abs(high));
   // Thousands and millionths, as engineers write them; 0.95e6 counts as 1e6.
-  if (greatest >= 0.9e5 || greatest < 1e-3) out.exponent = 3 * static_cast<int>(std::floor((std::log10(greatest) + 0.05) / 3));
+  if (greatest >= 0.9e5 || greatest < plain) out.exponent = 3 * static_cast<int>(std::floor((std::log10(greatest) + 0.05) / 3));
   const int decimals = std::max(0, out.exponent - step_exponent);
   const Wide factor = std::pow(Wide{10}, out.exponent);
   const int parts = unit == 2 ? 4 : 5;

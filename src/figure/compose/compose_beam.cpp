@@ -146,8 +146,10 @@ PanelStyle style(BeamPanel panel, const Units& units) {
   return {};
 }
 
-BeamDrawing beam_drawing(const BeamView& view) {
+BeamDrawing beam_drawing(const BeamView& view, const Units& units) {
   BeamDrawing out;
+  out.force_unit = units.force, out.moment_unit = joined(units.force, "·", units.length);
+  if (!units.force.empty() && !units.length.empty()) out.load_unit = units.force + "/" + units.length;
   out.length = view.length;
   out.x = points(view);
   for (const double x : out.x) {
@@ -273,7 +275,7 @@ PagePicture compose(const BeamView& view, const std::vector<BeamPanel>& panels, 
     cell.x_label = "x" + unit_text(units.length);
     cell.y_label = label;
     if (panel == BeamPanel::deflection) {
-      cell.drawing = beam_drawing(view);
+      cell.drawing = beam_drawing(view, units);
     } else {
       CurveDrawing curve;
       curve.curves = {curve_of(view, panel)};
@@ -301,13 +303,13 @@ PagePicture compose(const BeamView& view, int support, LawSide of, const Units& 
 
 PagePicture compose(const std::vector<GalleryRow>& rows) {
   PagePicture page;
-  page.width = 1600, page.height = 60 + 380 * static_cast<int>(rows.size());
+  page.width = 1600, page.height = 60 + std::min(380 * static_cast<int>(rows.size()), 1735);  // 200 mm
   page.column_weights = {1.55, 1, 1};
   for (const GalleryRow& row : rows) {
     PageCell beam;
     beam.title = row.title + (row.title.empty() || row.view.doubt.empty() ? "" : ", ") + row.view.doubt;
     beam.x_label = "x", beam.y_label = "deflection u";
-    beam.drawing = beam_drawing(row.view);
+    beam.drawing = beam_drawing(row.view, {});
     std::vector<PageCell> cells = law_cells(row.view, row.support, row.of, {});
     cells.insert(cells.begin(), std::move(beam));
     page.rows.push_back(std::move(cells));

@@ -1,6 +1,7 @@
 #include "figure/compose/compose_plate.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -137,7 +138,8 @@ void add_forces(PlatePicture& picture, const plate::Solution& s) {
   std::erase_if(picture.forces, [&](const PlateForce& f) { return std::abs(f.force) <= 1e-3 * carried; });
 }
 
-// At vertices that have a row of their own: x = −u + height.
+// At vertices that have a row of their own: x = −u + height. The zone that bears has also those that touch without a force, and is
+// smoothed: twice half of a vertex' own and half the mean of those about it.
 void add_obstacle(PlatePicture& picture, const plate::Solution& s) {
   const std::vector<int>& rows = s.model().obstacle_row;
   const algebra::Vector &lambda = s.result().state.lambda, &c = s.model().problem.c;
@@ -149,13 +151,58 @@ void add_obstacle(PlatePicture& picture, const plate::Solution& s) {
     picture.obstacle.push_back(rows[i] < 0 ? NAN : std::max(floor, -c[rows[i]]));
     if (rows[i] >= 0 && lambda[rows[i]] > noise) picture.bearing.push_back(static_cast<int>(i));
   }
+  std::vector<double>& bears = picture.bears;
+  bears.assign(rows.size(), 0);
+  if (picture.bearing.empty()) return;
+  for (std::size_t i = 0; i < rows.size(); ++i) bears[i] = rows[i] >= 0 && picture.deflection[i] + c[rows[i]] < 1e-4 * (*high - *low);
+  for (const int i : picture.bearing) bears[i] = 1;
+  for (int pass = 0; pass < 2; ++pass) {
+    std::vector<double> sum(rows.size(), 0), count = sum;
+    for (const plate::Edge& e : s.model().space.edges.edges)
+      for (const int end : {0, 1}) sum[e.node[end]] += bears[e.node[1 - end]], ++count[e.node[end]];
+    for (std::size_t i = 0; i < rows.size(); ++i) bears[i] = 0.5 * bears[i] + 0.5 * sum[i] / count[i];
+  }
+}
+
+// Cuts each triangle into four. The deflection at the middle of a side is that of the element, the mean where its two cells differ; what
+// else there is is linear.
+void refine(PlatePicture& picture, const plate::Solution& s) {
+  const plate::Edges& edges = s.model().space.edges;
+  const mesh::Mesh& mesh = *s.plate().mesh;
+  const int vertices = mesh.node_count();
+  const auto halve = [&](std::vector<double>& values, std::size_t each) {
+    for (const plate::Edge& e : edges.edges)
+      for (std::size_t c = 0; c < each && !values.empty(); ++c) values.push_back((values[each * e.node[0] + c] + values[each * e.node[1] + c]) / 2);
+  };
+  for (std::vector<double>* values : {&picture.obstacle, &picture.bears}) halve(*values, 1);
+  halve(picture.points, 2);
+  std::vector<double> sum(edges.edges.size(), 0), count = sum;
+  picture.triangles.clear();
+  for (int c = 0; c < mesh.cell_count(); ++c) {
+    const int* v = mesh.cell(c);
+    std::array<int, 3> m;
+    for (int k = 0; k < 3; ++k) {
+      const int edge = edges.of_cell[c][k];
+      plate::Barycentric b = plate::Barycentric::Constant(0.5);
+      b[(k + 2) % 3] = 0;
+      sum[edge] += s.deflection({c, b}), ++count[edge];
+      m[k] = vertices + edge;
+    }
+    for (int k = 0; k < 3; ++k) picture.triangles.insert(picture.triangles.end(), {v[k], m[k], m[(k + 2) % 3]});
+    picture.triangles.insert(picture.triangles.end(), m.begin(), m.end());
+  }
+  for (std::size_t e = 0; e < sum.size(); ++e) {
+    const int middle = vertices + static_cast<int>(e);
+    picture.deflection.push_back(sum[e] / count[e]);
+    picture.mesh_edges.insert(picture.mesh_edges.end(), {edges.edges[e].node[0], middle, middle, edges.edges[e].node[1]});
+  }
 }
 
 // Half the sum of the principal moments, and half their difference.
 double mean(const plate::Moment& m) { return (m.xx + m.yy) / 2; }
 double radius(const plate::Moment& m) { return std::hypot((m.xx - m.yy) / 2, m.xy); }
 
-// What a field is called, and its value of the moment at a vertex.
+// What a field is called, and its value of the moment at a point.
 struct PlateValue {
   const char* label;
   double (*value)(const plate::Moment& m);
@@ -177,7 +224,12 @@ void add_field(PlatePicture& picture, const plate::Solution& s, const PlateOptio
   picture.field_unit = options.field == PlateField::deflection ? options.units.length : options.units.force;  // force·length per length
   if (options.field == PlateField::deflection) picture.values = picture.deflection;
   if (!field.value) return;
-  for (const plate::Moment& m : s.vertex_moments()) picture.values.push_back(field.value(m));
+  const std::vector<plate::Moment>& m = s.vertex_moments();
+  for (const plate::Moment& at : m) picture.values.push_back(field.value(at));
+  for (const plate::Edge& e : s.model().space.edges.edges) {
+    const plate::Moment &p = m[e.node[0]], &q = m[e.node[1]];
+    picture.values.push_back(field.value({(p.xx + q.xx) / 2, (p.yy + q.yy) / 2, (p.xy + q.xy) / 2}));
+  }
 }
 
 }  // namespace
@@ -199,10 +251,11 @@ PlatePicture compose(const plate::Solution& s, const PlateOptions& options) {
   picture.deformation = options.deform.value_or(visible_deflection(s));
   picture.force_unit = options.units.force;
   picture.reaction_unit = options.units.force.empty() || options.units.length.empty() ? "" : options.units.force + "/" + options.units.length;
-  add_field(picture, s, options);
   add_boundary(picture, s);
   add_forces(picture, s);
   add_obstacle(picture, s);
+  refine(picture, s);
+  add_field(picture, s, options);
   return picture;
 }
 

@@ -243,6 +243,8 @@ void check(const PagePicture& p) {
     for (const PageCell& cell : row) {
       check_text("'title'", cell.title);
       for (const std::string& label : {cell.x_label, cell.y_label}) check_text("'units'", label);  // the rest of it is ours
+      if (const auto* beam = std::get_if<BeamDrawing>(&cell.drawing))
+        for (const std::string& unit : {beam->force_unit, beam->moment_unit, beam->load_unit}) check_text("'units'", unit);
       std::visit([](const auto& drawing) { check_drawing(drawing); }, cell.drawing);
     }
   }

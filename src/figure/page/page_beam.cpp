@@ -77,7 +77,7 @@ public:
       const auto [low, high] = arrow(i);
       const bool ends = i == 0 || i + 1 == beam_.x.size();
       const bool beside_end = !ends && axes_.x.pixel(beam_.x.back()) - low.x < 0.55 * em_;
-      if (high.y == low.y || beside_end || beside_load(beam_.x[i]) || below_arc(beam_, axes_, low.x) || !(ends || low.x - last > 1.1 * em_)) continue;
+      if (high.y == low.y || beside_end || beside_load(beam_.x[i]) || on_support(low) || below_arc(beam_, axes_, low.x) || !(ends || low.x - last > 1.1 * em_)) continue;
       canvas_.arrow(beam_.load[i] < 0 ? high : low, beam_.load[i] < 0 ? low : high, width, 0.38 * em_, load_colour);
       last = low.x;
     }
@@ -102,6 +102,15 @@ private:
   }
 
   Point on_line(double x) const { return axes_.at(x, deflection_at(beam_, x)); }
+
+  // Where the line runs beside a support that stands below the axis.
+  bool on_support(Point low) const {
+    return std::ranges::any_of(beam_.supports, [&](const BeamSupport& s) {
+      const double axis = axes_.y.pixel(0);
+      return s.below.kind != ElementKind::none && s.below.kind != ElementKind::fixed && low.y < axis + 0.7 * em_ && low.y > axis - 2.5 * symbol_em(axes_) &&
+             std::abs(low.x - axes_.x.pixel(s.x)) < 0.8 * symbol_em(axes_) && std::abs(on_line(s.x).y - axis) < 0.5 * em_;
+    });
+  }
 
   // There the arrow of the point load stands.
   bool beside_load(double x) const {
@@ -136,18 +145,26 @@ private:
 
   void label_point(const BeamLoad& l) {
     const Point p = on_line(l.x);
-    if (l.force != 0) label("F = " + number(l.force), {p.x, p.y + clear_of_bar(beam_, l.x, symbol_em(axes_)) + (force_length + 0.6) * em_});
-    if (l.moment != 0) label("M = " + number(l.moment), {p.x, p.y + (moment_radius + 0.5) * em_});
+    if (l.force != 0) label("F = " + number(l.force) + unit(beam_.force_unit), {p.x, p.y + clear_of_bar(beam_, l.x, symbol_em(axes_)) + (force_length + 0.6) * em_});
+    if (l.moment != 0) label("M = " + number(l.moment) + unit(beam_.moment_unit), {p.x, p.y + (moment_radius + 0.5) * em_});
   }
 
+  // The greatest, and each that stays the same for long.
   void label_distributed() {
-    const auto nearly_greatest = [&](double q) { return std::abs(q) >= 0.999 * greatest_; };
-    const auto from = std::find_if(beam_.load.begin(), beam_.load.end(), nearly_greatest), to = std::find_if_not(from, beam_.load.end(), nearly_greatest);
-    if (from == to) return;
-    const std::size_t middle = ((from - beam_.load.begin()) + (to - beam_.load.begin() - 1)) / 2;
-    const Point p = axes_.at(beam_.x[middle], beam_.deflection[middle]);
-    label("q = " + number(beam_.load[middle]), {p.x, p.y + (load_gap + most_load + 0.4) * em_});
+    const std::size_t n = beam_.load.size();
+    bool greatest_told = false;
+    for (std::size_t i = 0, j = 0; i < n; i = j) {
+      while (j < n && std::abs(beam_.load[j] - beam_.load[i]) <= 1e-3 * greatest_) ++j;
+      const bool most = std::abs(beam_.load[i]) >= 0.998 * greatest_ && !greatest_told, lasts = beam_.x[j - 1] - beam_.x[i] > 0.15 * beam_.length;
+      if (!(std::abs(beam_.load[i]) > 1e-9 * greatest_) || !(most || lasts)) continue;
+      greatest_told = greatest_told || most;
+      const std::size_t middle = (i + j - 1) / 2;
+      const Point p = axes_.at(beam_.x[middle], beam_.deflection[middle]);
+      label("q = " + number(beam_.load[middle]) + unit(beam_.load_unit), {p.x, p.y + load_gap * em_ + height(beam_.load[middle], greatest_, em_) + 0.4 * em_});
+    }
   }
+
+  static std::string unit(const std::string& name) { return name.empty() ? "" : " " + name; }
 
   // As near to the point as nothing else stands; not at all where there is no place.
   void label(const std::string& text, Point at) {
@@ -205,7 +222,7 @@ void fit_y(const BeamDrawing& beam, Axes& axes) {
   const double zero = axes.room.bottom + room.below + 0.5 * (height - room.above - room.below);
   axes.y.from = axes.room.bottom, axes.y.to = axes.room.top;
   axes.y.low = (axes.room.bottom - zero) / scale, axes.y.high = (axes.room.top - zero) / scale;
-  axes.y_ticks = rests ? Ticks{{{0, "0"}}, 0} : few_ticks(axes.y.low, axes.y.high, height / (2.6 * axes.em));
+  axes.y_ticks = rests ? Ticks{{{0, "0"}}, 0} : few_ticks(axes.y.low, axes.y.high, height / (2.6 * axes.em), plain_numbers);
 }
 
 void draw_cell(Canvas& canvas, const BeamDrawing& beam, const Axes& axes) {

@@ -9,6 +9,11 @@
 
 namespace dotyk::figure {
 
+constexpr double plain_numbers = 1e-2;  // labels of vertical axes below it are with a power of ten
+
+constexpr Colour idle_ink{175, 175, 175};           // of a spring beside one that acts
+constexpr Colour forbidden_grey{228, 228, 228};     // of displacements that a law forbids
+
 // The vertical axis of a drawing in a room of this height, x given: values and ticks.
 void fit_y(const BeamDrawing& beam, Axes& axes);
 void fit_y(const CurveDrawing& curve, Axes& axes);

@@ -5,7 +5,7 @@ namespace dotyk::figure {
 
 namespace {
 
-constexpr Colour point_colour{213, 94, 0}, zero_ink{110, 110, 110}, forbidden_grey{236, 236, 236};
+constexpr Colour point_colour{213, 94, 0}, zero_ink{110, 110, 110};
 
 // Down to zero.
 void fill(Canvas& canvas, const PageCurve& c, const Axes& axes, Colour colour) {
@@ -61,12 +61,22 @@ void draw_point(Canvas& canvas, const CurveDrawing& curve, const Axes& axes) {
   Occupied all = occupied;
   all.add({{axes.room.left, origin.y}, {axes.room.right, origin.y}}, axes.room);
   all.add({{origin.x, axes.room.bottom}, {origin.x, axes.room.top}}, axes.room);
-  const double size = 0.9 * em;
-  const std::string text = "(" + number(x) + ", " + number(y) + ")";
-  const Point extent = text_extent(text, size);
-  std::optional<Point> place = place_beside(all, axes.room, p, extent, 0.35 * em);
-  if (!place) place = place_beside(occupied, axes.room, p, extent, 0.35 * em);
-  if (place) canvas.text(*place, text, {.size = size, .across = Align::middle, .up = Align::middle, .colour = {150, 60, 0}, .halo = true});
+  // In one line or two; at worst over a curve.
+  Occupied marker;
+  marker.add(Box::about(p, {0.8 * em, 0.8 * em}));
+  const double size = 0.9 * em, line = 1.25 * size;
+  const std::string abscissa = "(" + number(x) + ",", ordinate = number(y) + ")";
+  const std::vector<std::string> lines[] = {{abscissa + " " + ordinate}, {abscissa, ordinate}};
+  for (const Occupied* spared : {&all, &occupied, &marker})
+    for (const std::vector<std::string>& texts : lines) {
+      Point extent{0, size + line * static_cast<double>(texts.size() - 1)};
+      for (const std::string& text : texts) extent.x = std::max(extent.x, text_extent(text, size).x);
+      const auto place = place_beside(*spared, axes.room, p, extent, 0.35 * em);
+      if (!place) continue;
+      for (std::size_t i = 0; i < texts.size(); ++i)
+        canvas.text({place->x, place->y + extent.y / 2 - size / 2 - line * static_cast<double>(i)}, texts[i], {.size = size, .across = Align::middle, .up = Align::middle, .colour = {150, 60, 0}, .halo = true});
+      return;
+    }
 }
 
 }  // namespace
@@ -86,7 +96,7 @@ void fit_y(const CurveDrawing& curve, Axes& axes) {
   }
   axes.y.low = low, axes.y.high = high;
   axes.y.from = axes.room.bottom, axes.y.to = axes.room.top;
-  axes.y_ticks = few_ticks(low, high, axes.room.height() / (2.6 * axes.em));
+  axes.y_ticks = few_ticks(low, high, axes.room.height() / (2.6 * axes.em), plain_numbers);
   const bool nothing = std::all_of(curve.curves.begin(), curve.curves.end(), [](const PageCurve& c) {
     return std::all_of(c.y.begin(), c.y.end(), [](double y) { return y == 0; });
   });

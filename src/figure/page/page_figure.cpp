@@ -26,6 +26,14 @@ public:
 
   const Canvas& canvas() const { return canvas_; }
 
+  // Pixels of height that the page lacks for plots that are not too low.
+  double missing() const {
+    double most = 0;
+    for (std::size_t i = 0; i < axes_.size(); ++i)
+      most = std::max(most, (least_plot(picture_) - axes_[i].front().room.height()) * total(picture_.row_weights) / picture_.row_weights[i]);
+    return most;
+  }
+
 private:
   static double total(const std::vector<double>& weights) { return std::accumulate(weights.begin(), weights.end(), 0.0); }
   const PageCell& cell(std::size_t i, std::size_t j) const { return picture_.rows[i][j]; }
@@ -38,22 +46,37 @@ private:
     return top - 0.7 * em_ - 1.5 * title.size - title.depth();
   }
 
-  // States of supports that occur; none where all do no more than act.
+  // States of supports that occur, but where all do no more than act; displacements that cannot be.
   double draw_legend(double top) {
     std::set<SupportState> seen;
+    bool idle = false, forbidden = false;
     for (const auto& row : picture_.rows)
       for (const PageCell& c : row)
-        if (const auto* beam = std::get_if<BeamDrawing>(&c.drawing))
+        if (const auto* beam = std::get_if<BeamDrawing>(&c.drawing)) {
           for (const BeamSupport& s : beam->supports)
-            for (const SupportElement& e : {s.below, s.arc})
+            for (const SupportElement& e : {s.below, s.arc}) {
               if (e.kind != ElementKind::none) seen.insert(e.state);
-    if (seen.empty() || seen == std::set{SupportState::acting}) return top;
+              idle = idle || (e.kind == ElementKind::paired_springs && (e.state == SupportState::pushing || e.state == SupportState::pulling));
+            }
+        } else {
+          forbidden = forbidden || !std::get<CurveDrawing>(c.drawing).forbidden.empty();
+        }
+    if (seen == std::set{SupportState::acting}) seen.clear();
     std::vector<LegendEntry> entries;
-    for (const SupportState state : seen)
-      entries.push_back({std::string("support ") + state_name(state), [state](Canvas& c, const Box& b) {
-                           const double middle = b.centre().y, half = 0.16 * b.height();
-                           c.box({b.left + 0.3 * b.width(), middle - half, b.right, middle + half}, state_colour(state));
+    const auto add = [&](const std::string& name, Colour colour, bool hollow, double gap) {
+      entries.push_back({name, [=](Canvas& c, const Box& b) {
+                           const Box bar{b.left + 0.3 * b.width(), b.centre().y - 0.16 * b.height(), b.right, b.centre().y + 0.16 * b.height()};
+                           const double middle = bar.centre().x, half = 0.5 * gap * bar.width();
+                           if (hollow) return c.outline(bar.grown(-0.05 * b.height()), 0.1 * b.height(), colour);
+                           if (gap == 0) return c.box(bar, colour);
+                           c.box({bar.left, bar.bottom, middle - half, bar.top}, colour), c.box({middle + half, bar.bottom, bar.right, bar.top}, colour);
                          }});
+    };
+    for (const SupportState state : seen)
+      add(std::string("support ") + state_name(state), state_colour(state), state == SupportState::open, state == SupportState::broken ? 0.3 : 0);
+    if (idle) add("spring that does not act", idle_ink, false, 0);
+    if (forbidden) add("impossible displacement", forbidden_grey, false, 0);
+    if (entries.empty()) return top;
     const Legend legend(std::move(entries), em_, picture_.width - em_);
     legend.draw(canvas_, {(picture_.width - legend.width()) / 2, top - legend.height()}, false);
     return top - legend.height();
@@ -73,7 +96,7 @@ private:
         const double wide = width * picture_.column_weights[j] / total(picture_.column_weights);
         Axes& axes = row.emplace_back();
         axes.em = em_;
-        axes.room = {x, y - share + (picture_.shared_x ? 0.35 * em_ : 3.1 * em_), x + wide - 1.1 * em_, y - (titled ? 1.7 : 0.45) * em_};
+        axes.room = {x, y - share + (picture_.shared_x ? 0.35 * em_ : 3.1 * em_), x + wide - 1.5 * em_, y - (titled ? 1.7 : 0.45) * em_};
         x += wide;
       }
       axes_.push_back(std::move(row));
@@ -83,18 +106,21 @@ private:
 
   void align() {
     for (std::size_t j = 0; j < columns_; ++j) {
-      double widest = 0;
+      double widest = 0, depth = 0;  // of labels
       for (std::size_t i = 0; i < axes_.size(); ++i) {
         std::visit([&](const auto& drawing) { fit_y(drawing, axes_[i][j]); }, cell(i, j).drawing);
         widest = std::max(widest, widest_label(axes_[i][j].y_ticks, em_));
+        depth = std::max(depth, y_label(i, j).depth());
       }
       for (auto& row : axes_) {
-        row[j].room.left += widest + (0.6 + 1.7 + 0.5) * em_;
+        row[j].room.left += widest + (0.6 + 1.7 + 0.5) * em_ + depth;
         row[j].x.from = row[j].room.left, row[j].x.to = row[j].room.right;
       }
       for (std::size_t i = 0; i < axes_.size(); ++i) fit_x(i, j);
     }
   }
+
+  FittedText y_label(std::size_t i, std::size_t j) const { return fitted(axis_name(cell(i, j).y_label, axes_[i][j].y_ticks), em_, axes_[i][j].room.height()); }
 
   // In em of symbols, of all beams of a column.
   double beyond_ends_of(std::size_t j) const {
@@ -130,10 +156,13 @@ private:
     draw_ticks(canvas_, axes, labels_x(i));
     draw_frame(canvas_, axes);
     const Point middle = axes.room.centre();
-    const std::string across = labels_x(i) ? axis_name(c.x_label, axes.x_ticks) : "", up = axis_name(c.y_label, axes.y_ticks);
-    canvas_.text({middle.x, axes.room.bottom - 1.75 * em_}, across, {.size = fitting_size(across, em_, axes.room.width()), .across = Align::middle, .up = Align::high});
-    canvas_.text({left_of(j) + 0.5 * em_, middle.y}, up, {.size = fitting_size(up, em_, axes.room.height()), .up = Align::middle, .upright = true});
-    const double wide = std::min(1.25 * axes.room.width(), picture_.width - axes.room.left - em_);
+    const std::string across = labels_x(i) ? axis_name(c.x_label, axes.x_ticks) : "";
+    const double size = fitting_size(across, em_, axes.room.right - left_of(j) - 0.5 * em_);
+    canvas_.text({std::min(middle.x, axes.room.right - text_extent(across, size).x / 2), axes.room.bottom - 1.75 * em_}, across, {.size = size, .across = Align::middle, .up = Align::high});
+    canvas_.text({left_of(j) + 0.5 * em_, middle.y}, y_label(i, j), {.up = Align::middle, .upright = true});
+    std::size_t next = j + 1;  // titles go on over cells that have none
+    while (next < columns_ && cell(i, next).title.empty()) ++next;
+    const double wide = (next < columns_ ? left_of(next) : picture_.width) - axes.room.left - em_;
     canvas_.text({axes.room.left, axes.room.top + 0.4 * em_}, c.title, {.size = fitting_size(c.title, em_, wide, true), .bold = true});
   }
 
@@ -152,10 +181,7 @@ private:
 
 void render(const PagePicture& given) {
   PagePicture picture = given;
-  const auto& weights = picture.row_weights;
-  const double lowest = *std::min_element(weights.begin(), weights.end()) / std::accumulate(weights.begin(), weights.end(), 0.0);
-  constexpr double kBeside = 1.4;  // its axis and title
-  picture.height = std::clamp(static_cast<int>(kBeside * least_plot(picture) / lowest), picture.height, std::max(picture.height, greatest_side));
+  picture.height = std::min(std::max(picture.height, greatest_side), picture.height + static_cast<int>(std::ceil(Page(picture).missing())));
   write_canvas(Page(picture).canvas(), picture);
 }
 

@@ -57,6 +57,7 @@ struct BeamDrawing {
   std::vector<double> load;           // per length, at the same points; empty: none
   std::vector<BeamLoad> loads;
   std::vector<BeamSupport> supports;
+  std::string force_unit, moment_unit, load_unit;  // beside loads; may be empty
 };
 
 // ------------------------------------------------------------------ curves

@@ -7,7 +7,7 @@ namespace dotyk::figure {
 
 namespace {
 
-constexpr Colour beam_ink{30, 30, 30}, white{255, 255, 255}, ground_ink{70, 70, 70}, idle_ink{175, 175, 175};
+constexpr Colour beam_ink{30, 30, 30}, white{255, 255, 255}, ground_ink{70, 70, 70};
 constexpr double radius = 1.8, swing = 85 * std::numbers::pi / 180;  // of arcs: em, rad
 constexpr double most_lean = 0.45;                                   // rad; steeper slopes are drawn as this
 constexpr double stop_length = 1.1, pin_height = 1.05;               // em
@@ -87,7 +87,7 @@ struct Element {
   }
 
   Point at(double s, double t) const { return track(s, t); }
-  double width() const { return std::max(1.6, em / 8); }
+  double width() const { return std::max(1.6, em / (element.state == SupportState::open ? 14 : 8)); }
 
   void ground(double s, double half = 0.55) { draw_ground(canvas, track, s, half * em, em); }
   void plate(double s) { canvas.line(at(s, -0.5 * em), at(s, 0.5 * em), 1.6 * width(), own); }
@@ -128,7 +128,7 @@ struct Element {
     std::vector<Point> post;
     for (int i = 0; i <= n; ++i) post.push_back(side(i, -1));
     for (int i = n; i >= 0; --i) post.push_back(side(i, 1));
-    for (int i = 0; i < n; ++i) canvas.convex(std::array{side(i, -1), side(i + 1, -1), side(i + 1, 1), side(i, 1)}, own, 0.55);
+    for (int i = 0; i < n; ++i) canvas.convex(std::array{side(i, -1), side(i + 1, -1), side(i + 1, 1), side(i, 1)}, own, element.state == SupportState::open ? 0.15 : 0.55);
     canvas.polyline(post, 0.7 * width(), own, {}, true);
     canvas.line(at(0, -0.5 * em), at(0, 0.5 * em), 1.6 * width(), own);
     ground(end);

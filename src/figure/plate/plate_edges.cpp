@@ -1,4 +1,6 @@
 // The boundary of a plate: its runs, and the reactions per length along them, seen from above, as areas that stand outside the edge.
+#include <functional>
+
 #include "figure/canvas/axes.hpp"
 #include "figure/plate/plate_stage.hpp"
 
@@ -78,15 +80,15 @@ Label label_at(const Stage& stage, const Plate& plate, const EdgePoint& p) {
 }
 
 // Of equal peaks that in the middle; nothing where the run carries next to nothing.
-void add_peak(std::vector<Label>& out, const Stage& stage, const Plate& plate, const EdgeRun& run, double sign) {
+const EdgePoint* peak_of(const Plate& plate, const EdgeRun& run, double sign) {
   double peak = 0;
   for (const EdgePoint& p : run.points)
     if (!p.extrapolated) peak = std::max(peak, sign * p.reaction);
-  if (!(peak > 0.04 * plate.greatest_reaction)) return;
+  if (!(peak > 0.04 * plate.greatest_reaction)) return nullptr;
   std::vector<const EdgePoint*> peaks;
   for (const EdgePoint& p : run.points)
     if (!p.extrapolated && sign * p.reaction >= 0.9999 * peak) peaks.push_back(&p);
-  out.push_back(label_at(stage, plate, *peaks[peaks.size() / 2]));
+  return peaks[peaks.size() / 2];
 }
 
 }  // namespace
@@ -122,13 +124,13 @@ Vec3 outwards_at(const std::vector<EdgeRun>& runs, double x, double y) {
 
 // The strip leaves room for the line of the edge, and for hatching where it is clamped.
 Point strip_foot(const Stage& stage, const Plate& plate, const EdgePoint& p, double ordinate) {
-  const double foot = (plate.clamped ? 0.75 : 0.34) * stage.em;
+  const double foot = (plate.clamped ? 0.65 : 0.34) * stage.em;
   return stage.view.flat(p.position) + (foot + ordinate) * stage.view.direction(p.normal);
 }
 
 Point strip_tip(const Stage& stage, const Plate& plate, const EdgePoint& p) {
   // Lower than pressures of a scene: strips stand on all sides.
-  const double ordinate = 0.6 * stage.strip_height() * std::abs(p.reaction) / plate.greatest_reaction;
+  const double ordinate = 1.3 * stage.em * std::abs(p.reaction) / plate.greatest_reaction;
   return strip_foot(stage, plate, p, plate.greatest_reaction > 0 ? ordinate : 0);
 }
 
@@ -150,6 +152,7 @@ void draw_strips(Stage& stage, const Plate& plate) {
       const Colour colour = pulls(i) ? pull_line : pressure_line;
       stage.over.line(tips[i], tips[i + 1], width, colour);
       for (const std::size_t k : {i, i + 1}) stage.over.disc(tips[k], width / 2, colour);
+      if (pulls(i)) stage.over.line(part_way(feet[i], tips[i], 0.5), part_way(feet[i + 1], tips[i + 1], 0.5), width, colour);  // told apart in grey too
     }
     if (length(feet.front() - feet.back()) < 0.5) continue;  // it goes all around
     for (const std::size_t i : {std::size_t{0}, points.size() - 1}) stage.over.line(feet[i], tips[i], width, points[i].reaction < 0 ? pull_line : pressure_line);
@@ -161,10 +164,18 @@ Label reaction_label(const Stage& stage, double value, const std::string& unit) 
 }
 
 std::vector<Label> strip_labels(const Stage& stage, const Plate& plate) {
-  std::vector<Label> out;
-  if (!(plate.greatest_reaction > 0)) return out;
+  std::vector<const EdgePoint*> peaks;
   for (const EdgeRun& run : plate.runs)
-    for (const double sign : {1.0, -1.0}) add_peak(out, stage, plate, run, sign);
+    for (const double sign : {1.0, -1.0})
+      if (const EdgePoint* peak = plate.greatest_reaction > 0 ? peak_of(plate, run, sign) : nullptr) peaks.push_back(peak);
+  std::ranges::stable_sort(peaks, std::greater{}, [](const EdgePoint* p) { return std::abs(p->reaction); });
+  std::vector<Label> out;
+  std::vector<double> told;
+  for (const EdgePoint* p : peaks) {
+    if (std::ranges::any_of(told, [&](double value) { return std::abs(p->reaction - value) < 0.01 * std::abs(value); })) continue;
+    told.push_back(p->reaction);
+    out.push_back(label_at(stage, plate, *p));
+  }
   return out;
 }
 

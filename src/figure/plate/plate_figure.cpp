@@ -1,6 +1,7 @@
 // A plate as a scene: a body in the plane or in space, with what plates add.
+#include <map>
 #include <numbers>
-#include <set>
+#include <ranges>
 
 #include "figure/door/drawing.hpp"
 #include "figure/plate/plate_stage.hpp"
@@ -13,9 +14,27 @@ Plate::Plate(const PlatePicture& p) : picture(p), runs(edge_runs(p)) {
     for (const EdgePoint& point : run.points) greatest_reaction = std::max(greatest_reaction, std::abs(point.reaction));
   }
   for (const PlateForce& f : p.forces) greatest_force = std::max(greatest_force, std::abs(f.force));
-  const std::set<int> bears(p.bearing.begin(), p.bearing.end());
-  for (auto t = p.triangles.begin(); t != p.triangles.end(); t += 3)
-    if (std::all_of(t, t + 3, [&](int i) { return bears.contains(i); })) zone.insert(zone.end(), t, t + 3);
+  if (p.bearing.empty()) return;
+  std::vector<double> bears = p.bears;
+  if (bears.empty()) bears.resize(p.deflection.size(), 0);
+  if (p.bears.empty()) for (const int i : p.bearing) bears[i] = 1;
+  std::map<std::pair<int, int>, int> sides;  // of triangles: how many
+  for (std::size_t k = 0; k + 2 < p.triangles.size(); k += 3)
+    for (std::size_t c = 0; c < 3; ++c) ++sides[std::minmax(p.triangles[k + c], p.triangles[k + (c + 1) % 3])];
+  for (std::size_t k = 0; k + 2 < p.triangles.size(); k += 3) {
+    PlateLine polygon, ends;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const int i = p.triangles[k + c], j = p.triangles[k + (c + 1) % 3];
+      const double a = bears[i] - 0.5, b = bears[j] - 0.5;
+      const auto crossing = [&] { return part_way(node(i, 1), node(j, 1), a / (a - b)); };
+      if (a > 0) polygon.push_back(node(i, 1));
+      if ((a > 0) != (b > 0)) polygon.push_back(crossing()), ends.push_back(crossing());
+      if ((a > 0 || b > 0) && sides[std::minmax(i, j)] == 1) rim.push_back({a > 0 ? node(i, 1) : crossing(), b > 0 ? node(j, 1) : crossing()});
+    }
+    if (!polygon.empty()) zone.push_back(std::move(polygon));
+    if (!ends.empty()) rim.push_back(std::move(ends));
+  }
+  std::ranges::copy_if(p.bearing, std::back_inserter(lone), [&](int i) { return !(bears[i] > 0.5); });
 }
 
 bool Plate::any(const std::function<bool(const EdgeRun&, const EdgePoint&)>& of) const {
@@ -56,11 +75,12 @@ BodyPicture body_of(const PlatePicture& p, bool space) {
   // In space the triangles are the skin of a body without an inside.
   (space ? body.facets : body.cells) = p.triangles;
   if (space) body.nodes_per_facet = 3;
+  body.edges = p.mesh_edges;
   body.values = p.values;
   return body;
 }
 
-// A little below where it is, so that what lies on it is not cut by it.
+// A solid block, its top a little below where it is, so that what lies on it is not cut by it.
 RigidPicture obstacle_of(const PlatePicture& p) {
   RigidPicture out;
   double size = 0;
@@ -69,8 +89,23 @@ RigidPicture obstacle_of(const PlatePicture& p) {
   for (std::size_t i = 0; i < p.obstacle.size(); ++i)
     out.points.insert(out.points.end(), {p.points[2 * i], p.points[2 * i + 1], there(i) ? p.deformation * p.obstacle[i] - 0.004 * size : 0});
   const std::vector<int>& t = p.triangles;
+  double lowest = 0;
   for (std::size_t k = 0; k + 2 < t.size(); k += 3)
-    if (there(t[k]) && there(t[k + 1]) && there(t[k + 2])) out.triangles.insert(out.triangles.end(), &t[k], &t[k] + 3);
+    if (there(t[k]) && there(t[k + 1]) && there(t[k + 2])) {
+      out.triangles.insert(out.triangles.end(), &t[k], &t[k] + 3);
+      for (std::size_t c = 0; c < 3; ++c) lowest = std::min(lowest, out.points[3 * t[k + c] + 2]);
+    }
+  std::map<int, int> feet;
+  const auto foot = [&](int i) {
+    const auto [found, fresh] = feet.try_emplace(i, static_cast<int>(out.points.size() / 3));
+    if (fresh) out.points.insert(out.points.end(), {out.points[3 * i], out.points[3 * i + 1], lowest - 0.04 * size});
+    return found->second;
+  };
+  for (const std::vector<int>& chain : chains(rim({out.triangles, 3})))
+    for (std::size_t k = 0; k + 1 < chain.size(); ++k) {
+      const int a = chain[k], b = chain[k + 1], under_a = foot(a), under_b = foot(b);
+      out.triangles.insert(out.triangles.end(), {a, b, under_a, b, under_b, under_a});
+    }
   return out;
 }
 
@@ -125,13 +160,12 @@ void plate_legend(const Plate& plate, double em, double width, std::vector<Legen
 std::vector<PlateLine> hatch(const Plate& plate, double spacing) {
   std::vector<PlateLine> out;
   const auto height = [](const Vec3& p) { return (p[0] - p[1]) / std::numbers::sqrt2; };
-  for (std::size_t k = 0; k + 2 < plate.zone.size(); k += 3) {
-    const Vec3 corner[3] = {plate.node(plate.zone[k], 1), plate.node(plate.zone[k + 1], 1), plate.node(plate.zone[k + 2], 1)};
-    const auto [low, high] = std::minmax({height(corner[0]), height(corner[1]), height(corner[2])});
+  for (const PlateLine& corner : plate.zone) {
+    const auto [low, high] = std::ranges::minmax(corner | std::views::transform(height));
     for (double level = std::ceil(low / spacing); level * spacing < high; ++level) {
       PlateLine ends;
-      for (std::size_t c = 0; c < 3; ++c) {
-        const Vec3 &p = corner[c], &q = corner[(c + 1) % 3];
+      for (std::size_t c = 0; c < corner.size(); ++c) {
+        const Vec3 &p = corner[c], &q = corner[(c + 1) % corner.size()];
         const double a = height(p) - level * spacing, b = height(q) - level * spacing;
         if ((a > 0) != (b > 0)) ends.push_back(part_way(p, q, a / (a - b)));
       }
@@ -142,9 +176,7 @@ std::vector<PlateLine> hatch(const Plate& plate, double spacing) {
 }
 
 void draw_bearing_points(Stage& stage, const Plate& plate, double factor, double size) {
-  const std::set<int> inside(plate.zone.begin(), plate.zone.end());
-  for (const int i : plate.picture.bearing)
-    if (!inside.contains(i)) stage.over.marker(Marker::disc, stage.view.flat(plate.node(i, factor)), size, status_colour(Status::closed));
+  for (const int i : plate.lone) stage.over.marker(Marker::disc, stage.view.flat(plate.node(i, factor)), size, status_colour(Status::closed));
 }
 
 void draw_apex(Stage& stage, Point at, Point size, double rim, Colour colour) {

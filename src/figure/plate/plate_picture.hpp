@@ -47,7 +47,7 @@ struct PlatePointSupport {
 };
 
 struct PlatePicture : Sheet {
-  PlatePicture() : Sheet{{}, 1200, 900, {}} {}
+  PlatePicture() : Sheet{{}, 1200, 1100, {}} {}
   std::string caption;                      // empty: none; the factor on the deflection is stated in any case
   PlateView view = PlateView::surface;
 
@@ -66,6 +66,8 @@ struct PlatePicture : Sheet {
   std::vector<PlatePointSupport> supports;
   std::vector<double> obstacle;             // n: heights of an obstacle under the plate, NaN where there is none; or empty
   std::vector<int> bearing;                 // nodes that bear on the obstacle
+  std::vector<double> bears;                // n, above 0.5 in the zone that does; empty: 1 at `bearing`, 0 elsewhere
+  std::vector<int> mesh_edges;              // of the mesh that was solved on, two nodes each; empty: the edges of the triangles
   std::string reaction_unit, force_unit;    // of reactions per length, of concentrated ones; may be empty
   std::optional<Vec3> view_from;            // surface: direction towards the eye
 };

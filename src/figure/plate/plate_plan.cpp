@@ -14,13 +14,15 @@ std::vector<Point> flat(const Stage& stage, const PlateLine& line) {
   return out;
 }
 
-// Clear of edges, forces and supports.
+// Clear of edges, forces, supports and the zone that bears.
 bool is_free(const Stage& stage, const Plate& plate, const Box& box) {
   for (const EdgeRun& run : plate.runs)
     for (std::size_t i = 0; i + 1 < run.points.size(); ++i) {
       Point p = stage.view.flat(run.points[i].position), q = stage.view.flat(run.points[i + 1].position);
       if (crop(p, q, box)) return false;
     }
+  for (const PlateLine& line : plate.rim)
+    if (std::vector<Point> ends = flat(stage, line); crop(ends[0], ends[1], box)) return false;
   const auto on = [&](double x, double y) { return box.holds(stage.view.flat({x, y, 0}), stage.em); };
   return std::ranges::none_of(plate.picture.forces, [&](const PlateForce& f) { return on(f.x, f.y); }) &&
          std::ranges::none_of(plate.picture.supports, [&](const PlatePointSupport& s) { return on(s.x, s.y); });
@@ -32,11 +34,12 @@ void draw_bearing(Stage& stage, const Plate& plate) {
     const std::vector<Point> ends = flat(stage, line);
     stage.over.line(ends[0], ends[1], std::max(1.0, stage.em / 18), colour);
   }
-  for (const std::vector<int>& chain : chains(rim({plate.zone, 3}))) {
-    std::vector<Point> points;
-    for (const int i : chain) points.push_back(stage.view.flat(plate.node(i, 0)));
-    stage.over.polyline(points, std::max(1.6, stage.em / 10), colour);
-  }
+  for (const auto& [width, ink] : {std::pair{stage.em / 5, Colour{255, 255, 255}}, std::pair{stage.em / 10, colour}})
+    for (const PlateLine& line : plate.rim) {
+      const std::vector<Point> ends = flat(stage, line);
+      stage.over.line(ends[0], ends[1], std::max(1.6, width), ink);
+      for (const Point& end : ends) stage.over.disc(end, std::max(1.6, width) / 2, ink);
+    }
   draw_bearing_points(stage, plate, 0, 0.5 * stage.em);
 }
 
@@ -66,7 +69,7 @@ void draw_edge(Stage& stage, const EdgeRun& run) {
 }
 
 double dot_size(const Stage& stage, const Plate& plate, const PlateForce& f) {
-  return stage.em * (0.4 + 0.5 * std::sqrt(std::abs(f.force) / plate.greatest_force));
+  return stage.em * (0.35 + 0.35 * std::sqrt(std::abs(f.force) / plate.greatest_force));
 }
 
 bool carries(const Plate& plate, const PlateForce& f) { return std::abs(f.force) > 1e-6 * plate.greatest_force; }
@@ -85,10 +88,16 @@ Label force_label(const Stage& stage, const Plate& plate, const PlateForce& f) {
   return label;
 }
 
+// Forces that differ by less than a twentieth are told once: their sizes are those of their dots.
 std::vector<Label> labels(const Stage& stage, const Plate& plate) {
   std::vector<Label> out;
-  for (const PlateForce& f : plate.picture.forces)
-    if (carries(plate, f)) out.push_back(force_label(stage, plate, f));
+  std::vector<double> told;
+  for (const PlateForce& f : plate.picture.forces) {
+    const bool again = std::ranges::any_of(told, [&](double value) { return std::abs(f.force - value) < 0.05 * std::abs(value); });
+    if (!carries(plate, f) || again) continue;
+    told.push_back(f.force);
+    out.push_back(force_label(stage, plate, f));
+  }
   for (Label& label : strip_labels(stage, plate)) out.push_back(std::move(label));
   return out;
 }
@@ -123,7 +132,7 @@ LegendEntry reaction_entry(double em, double sign, bool strip, bool force) {
             const Colour colour = sign > 0 ? pressure_line : pull_line;
             if (strip) {
               c.box({b.left, middle - 0.36 * em, b.right, top}, sign > 0 ? pressure_fill : pull_fill);
-              c.line({b.left, top}, {b.right, top}, std::max(1.2, em / 14), colour);
+              for (const double y : {top, sign > 0 ? top : middle}) c.line({b.left, y}, {b.right, y}, std::max(1.2, em / 14), colour);
             }
             if (force) c.marker(Marker::disc, {b.centre().x, middle - (strip ? 0.05 * em : 0)}, 0.5 * em, colour);
           }};

@@ -31,6 +31,9 @@ std::vector<EdgeRun> edge_runs(const PlatePicture& plate);
 // there; 0 within the plate.
 Vec3 outwards_at(const std::vector<EdgeRun>& runs, double x, double y);
 
+// Points on the plate: x, y, and the deflection there.
+using PlateLine = std::vector<Vec3>;
+
 struct Plate {
   explicit Plate(const PlatePicture& picture);
 
@@ -38,17 +41,16 @@ struct Plate {
   std::vector<EdgeRun> runs;
   double greatest_reaction = 0, greatest_force = 0;
   bool clamped = false;   // somewhere
-  std::vector<int> zone;  // triangles all of whose corners bear on the obstacle, flat
+  std::vector<PlateLine> zone, rim;  // what bears on the obstacle: polygons; its outline, two points each
+
+  std::vector<int> lone;  // nodes that bear outside of the zone
 
   // Of some point of some run.
   bool any(const std::function<bool(const EdgeRun&, const EdgePoint&)>& of) const;
   Vec3 node(int i, double factor) const { return {picture.points[2 * i], picture.points[2 * i + 1], factor * picture.deflection[i]}; }
 };
 
-// Points of a line through triangles: x, y, and the deflection there.
-using PlateLine = std::vector<Vec3>;
-
-// Parallels at 45 degrees, `spacing` apart, on the triangles that bear on the obstacle: two points each.
+// Parallels at 45 degrees, `spacing` apart, on the zone that bears on the obstacle: two points each.
 std::vector<PlateLine> hatch(const Plate& plate, double spacing);
 
 // In the colour of its status, or of the kind of support where it has none.
@@ -58,7 +60,7 @@ Colour support_colour(PlateSupport support, const std::optional<Status>& status)
 // pixels; point supports; the zone that bears on the obstacle.
 void plate_legend(const Plate& plate, double em, double width, std::vector<LegendEntry>& out);
 
-// Nodes that bear alone, without a triangle of the zone about them, in the plane of the plate where the factor is 0.
+// Nodes that bear alone, in the plane of the plate where the factor is 0.
 void draw_bearing_points(Stage& stage, const Plate& plate, double factor, double size);
 // A support at a point: a triangle below it, with a rim of white.
 void draw_apex(Stage& stage, Point at, Point size, double rim, Colour colour);
@@ -69,7 +71,7 @@ Point strip_tip(const Stage& stage, const Plate& plate, const EdgePoint& p);
 void draw_strips(Stage& stage, const Plate& plate);
 // "3.2 kN", in the colour of what pushes or pulls.
 Label reaction_label(const Stage& stage, double value, const std::string& unit);
-// The greatest reaction of each edge, beyond the strip.
+// The greatest reaction of each edge, beyond the strip, and those that differ from one that is told by less than a hundredth not again.
 std::vector<Label> strip_labels(const Stage& stage, const Plate& plate);
 
 std::vector<Layer> plan_layers(const Plate& plate);

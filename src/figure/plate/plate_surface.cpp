@@ -10,7 +10,6 @@ namespace dotyk::figure {
 namespace {
 
 constexpr double edge_width = 0.2;  // em
-constexpr Colour base_colour{95, 95, 95};
 
 Vec3 raised(const Stage& stage, const EdgePoint& p) { return {p.position[0], p.position[1], stage.picture.deformation * p.deflection}; }
 
@@ -37,7 +36,7 @@ void add_edges(const Stage& stage, const Plate& plate, vtkRenderer* renderer) {
 
 // Between an edge and where it would rest.
 void add_gaps(const Stage& stage, const Plate& plate, vtkRenderer* renderer) {
-  Shapes curtain(stage, 4), base(stage, 2), ordinates(stage, 2);
+  Shapes curtain(stage, 4), ordinates(stage, 2);
   for (const EdgeRun& run : plate.runs) {
     if (!rests(run)) continue;
     std::vector<Point> feet;
@@ -46,23 +45,23 @@ void add_gaps(const Stage& stage, const Plate& plate, vtkRenderer* renderer) {
       const EdgePoint &a = run.points[i], &b = run.points[i + 1];
       if (!lifted(stage, a) && !lifted(stage, b)) continue;
       for (const Vec3& p : {a.position, b.position, raised(stage, b), raised(stage, a)}) curtain.add(p, 1);
-      for (const Vec3& p : {a.position, b.position}) base.add(p, 2);
     }
     for (const std::size_t i : stage.spaced(feet, 0.6 * stage.em))
       if (lifted(stage, run.points[i])) ordinates.add(run.points[i].position, 1.5), ordinates.add(raised(stage, run.points[i]), 1.5);
   }
-  base.show(renderer, base_colour, 0.12 * stage.em);
   ordinates.show(renderer, status_colour(Status::open), std::max(0.8, stage.em / 28));
   curtain.show(renderer, status_colour(Status::open), 1, 0.3);
 }
 
 void add_zone(Stage& stage, const Plate& plate, vtkRenderer* renderer) {
   const double factor = plate.picture.deformation;
-  Shapes lines(stage, 2), outline(stage, 2);
+  Shapes lines(stage, 2), outline(stage, 2), halo(stage, 2);
   for (const PlateLine& line : hatch(plate, 0.7 * stage.em / stage.view.scale))
     for (const Vec3& end : line) lines.add({end[0], end[1], factor * end[2]}, 2);
-  for (const int i : rim({plate.zone, 3})) outline.add(plate.node(i, factor), 3);
+  for (const PlateLine& line : plate.rim)
+    for (const Vec3& end : line) outline.add({end[0], end[1], factor * end[2]}, 3 + 0.3 * stage.em), halo.add({end[0], end[1], factor * end[2]}, 2 + 0.3 * stage.em);
   lines.show(renderer, status_colour(Status::closed), std::max(1.0, stage.em / 18));
+  halo.show(renderer, {255, 255, 255}, std::max(3.2, stage.em / 5));
   outline.show(renderer, status_colour(Status::closed), std::max(1.6, stage.em / 10));
   draw_bearing_points(stage, plate, factor, 0.45 * stage.em);
 }
@@ -86,7 +85,6 @@ void surface_legend(const Stage& stage, const Plate& plate, std::vector<LegendEn
     out.push_back({"deflection of an edge", [em = stage.em](Canvas& c, const Box& b) {
                      const double low = b.centre().y - 0.35 * em;
                      c.convex(std::array{Point{b.left, low}, Point{b.right, low}, Point{b.right, low + 0.75 * em}}, status_colour(Status::open), 0.3);
-                     c.line({b.left, low}, {b.right, low}, 0.12 * em, base_colour);
                    }});
 }
 
@@ -94,6 +92,11 @@ void surface_legend(const Stage& stage, const Plate& plate, std::vector<LegendEn
 
 std::vector<Layer> surface_layers(const Plate& plate) {
   const auto draw = [&plate](Stage& stage, vtkRenderer* renderer) {
+    for (const RigidPicture& block : stage.picture.obstacles) {
+      std::vector<Vec3> at;
+      for (std::size_t i = 0; i < block.points.size(); i += 3) at.push_back(stage.rendered(stage.view.pixel({block.points[i], block.points[i + 1], block.points[i + 2]}), 0.5));
+      add_features(stage, renderer, poly_data(at, {block.triangles, 3}), {120, 120, 120}, std::max(0.8, stage.em / 28));
+    }
     add_gaps(stage, plate, renderer);
     add_edges(stage, plate, renderer);
     add_zone(stage, plate, renderer);

@@ -99,7 +99,13 @@ void draw_isolines(Stage& stage, const std::function<bool(const Box&)>& free) {
   for (const BodyPicture& body : stage.picture.bodies) {
     if (body.values.empty()) continue;
     const Triangles triangles = triangles_of(stage, body);
-    for (const Tick& tick : linear_ticks(stage.scale.low, stage.scale.high, 6).ticks) {
+    Bounds bounds;
+    for (const Point& p : triangles.at) bounds.add(p);
+    const std::vector<Tick> ticks = linear_ticks(stage.scale.low, stage.scale.high, 6).ticks;
+    // So many from the rim to the middle leave no colour between them.
+    const bool fuse = 0.5 * std::min(bounds.width(), bounds.height()) < 0.3 * stage.em * static_cast<double>(ticks.size());
+    for (const Tick& tick : ticks) {
+      if (fuse && tick.label.empty()) continue;
       if (tick.value <= stage.scale.least || tick.value >= stage.scale.greatest) continue;  // a field ends there, it does not pass
       const Colour colour = brightness(stage.scale.at(tick.value)) < 0.35 ? Colour{225, 225, 225} : Colour{55, 55, 55};
       for (const std::vector<Point>& line : contour(triangles, tick.value)) {

@@ -179,6 +179,28 @@ void draw_triad(Stage& stage, Point at) {
   }
 }
 
+// In a corner that the scene leaves free, else below on the left.
+Point triad_place(const Stage& stage, const Box& room) {
+  const double em = stage.em;
+  const Box corners{room.left + 2.2 * em, room.bottom + 1.6 * em, room.right - 2.6 * em, room.top - 2.6 * em};
+  for (const Point at : {Point{corners.left, corners.bottom}, {corners.right, corners.bottom}, {corners.left, corners.top}, {corners.right, corners.top}}) {
+    const Box box{at.x - 2.6 * em, at.y - 1.6 * em, at.x + 2.6 * em, at.y + 2.6 * em};
+    bool free = true;
+    const auto spare = [&](const Facets& facets, const auto& place) {
+      each_polygon(facets, [&](std::span<const int> nodes) {
+        Bounds bounds;
+        for (const int i : nodes) bounds.add(stage.view.flat(place(i)));
+        free = free && !bounds.overlaps(box);
+      });
+    };
+    for (const BodyPicture& body : stage.picture.bodies)
+      for (const double factor : {stage.picture.deformation, 0.0}) spare({body.facets, body.nodes_per_facet}, [&](int i) { return body.node(i, factor); });
+    for (const RigidPicture& o : stage.picture.obstacles) spare({o.triangles, 3}, [&](int i) { return Vec3{o.points[3 * i], o.points[3 * i + 1], o.points[3 * i + 2]}; });
+    if (free) return at;
+  }
+  return {corners.left, corners.bottom};
+}
+
 // Whether the undeformed outline is seen beside the deformed one; in a window
 // the contact drawn on that is broad.
 bool displacement_shows(const Stage& stage) {
@@ -306,7 +328,7 @@ double lay_out(Stage& stage) {
   if (!around.beside) around.legend.draw(stage.over, {(w - around.legend.width()) / 2, 0.3 * em + around.caption}, false);
   draw_column(stage, around);
   if (p.axes && stage.plane) draw_axes(stage);
-  if (p.axes && !stage.plane) draw_triad(stage, {around.room.left + 2.2 * em, around.room.bottom + 1.6 * em});
+  if (p.axes && !stage.plane) draw_triad(stage, triad_place(stage, around.room));
   const double missing = std::max({column_height(stage, around) - room_of_column(stage, around), least_plot(p) - around.room.height(), stage.frame.height() - around.room.height()});
   if (!stage.plane && !stage.window) stage.frame = around.room;
   return missing;

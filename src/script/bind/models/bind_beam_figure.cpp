@@ -136,7 +136,7 @@ void bind_beam_figure(Library& library) {
                                                                                 title_key("above the row")}, ""),
                                                         "from above").count(1, 12).required(),
                                               title_key("above all")},
-                                              size_keys("{1600, 60 and 380 a row}")))},
+                                              size_keys("{1600, 60 and 380 a row, at most 1795}")))},
                     .run = gallery});
   add_thermoelastic(library);
 }

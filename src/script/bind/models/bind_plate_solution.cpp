@@ -198,7 +198,7 @@ void bind_plate_solution(Library& library) {
             key::vector("range", "least and greatest value of the colours").count(2).otherwise("the field's").into(&figure::PlatePicture::field_range),
             key::vector("eye", "surface: direction towards the eye").count(3).otherwise("{1, -1.7, 0.8}"),
             title_key(), units_key()},
-           size_keys("{1200, 800}, a plan {1200, 900}")))},
+           size_keys("{1200, 800}, a plan {1200, 1100}")))},
        .run = render_plate})
       .text(plate_solution_text);
 }
