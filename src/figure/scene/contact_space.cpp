@@ -73,27 +73,14 @@ void add_field(const Stage& stage, const ContactPicture& contact, vtkRenderer* r
   borders.show(renderer, {255, 255, 255}, 0.16 * stage.em);
 }
 
-// Flat arrows that face the eye: a shaft of four corners, a head of four of
-// which two coincide. `half`: of the head's width.
-void add_arrow(Shapes& quads, const Vec3& tail, const Vec3& head, double width, double tip, double half, double lift) {
-  const double size = std::hypot(head[0] - tail[0], head[1] - tail[1]);
-  if (!(size > 0.5)) return;
-  tip = std::min(tip, 0.7 * size);
-  const Vec3 side{-(head[1] - tail[1]) / size, (head[0] - tail[0]) / size, 0};
-  const Vec3 neck = part_way(head, tail, tip / size);
-  for (const Vec3& p : {plus(tail, side, width / 2), plus(tail, side, -width / 2), plus(neck, side, -width / 2), plus(neck, side, width / 2),
-                        plus(neck, side, half), plus(neck, side, -half), head, head})
-    quads.add_pixel(p, lift);
-}
-
 void add_arrows(const Stage& stage, const ContactPicture& contact, vtkRenderer* renderer) {
   if (!(stage.greatest_pressure > 0)) return;
   const Plan plan = plan_of(contact);
   std::vector<Point> in_plan;
   for (const ContactNode& node : contact.nodes) in_plan.push_back(plan(node.position));
-  const double em = stage.em, width = std::max(1.3, em / 13), rim = std::max(0.8, em / 28);
+  const double em = stage.em;
   const View& view = stage.view;
-  Shapes dark(stage, 4), white(stage, 4);
+  Arrows arrows(stage, std::max(1.3, em / 13), 0.42 * em);
   for (const std::size_t i : spread(stage.at(contact.nodes), in_plan, 0.8 * em)) {
     const ContactNode& node = contact.nodes[i];
     const double share = node.pressure / stage.greatest_pressure;
@@ -102,13 +89,9 @@ void add_arrows(const Stage& stage, const ContactPicture& contact, vtkRenderer* 
     const Vec3 n = unit(node.normal), head = view.pixel(stage.place(node)), seen{dot(n, view.right), dot(n, view.up), dot(n, view.towards)};
     const double across = std::hypot(seen[0], seen[1]);
     if (across < 0.05) continue;
-    const Vec3 tail = plus(head, seen, stage.strip_height() * share / across), back = unit(plus(tail, head, -1));
-    add_arrow(dark, tail, head, width, 0.42 * em, 0.16 * em, 6);
-    add_arrow(white, plus(tail, back, rim), plus(head, back, -2 * rim), width + 2 * rim, 0.42 * em + 3 * rim, 0.16 * em + 1.8 * rim, 5);
+    arrows.add(plus(head, seen, stage.strip_height() * share / across), head);
   }
-  if (dark.empty()) return;
-  white.show(renderer, {255, 255, 255});
-  dark.show(renderer, pressure_line);
+  arrows.show(renderer, pressure_line);
 }
 
 }  // namespace

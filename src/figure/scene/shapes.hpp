@@ -41,4 +41,16 @@ private:
   std::vector<Vec3> points_;
 };
 
+// Flat arrows in space that face the eye, rimmed in white; bodies in front hide them. Ends are pixels.
+class Arrows {
+public:
+  Arrows(const Stage& stage, double width, double tip) : width_(width), tip_(tip), rim_(std::max(0.8, stage.em / 28)), dark_(stage, 4), white_(stage, 4) {}
+  void add(const Vec3& tail, const Vec3& head);
+  void show(vtkRenderer* renderer, Colour colour) const;
+
+private:
+  double width_, tip_, rim_;
+  Shapes dark_, white_;
+};
+
 }  // namespace dotyk::figure

@@ -1,5 +1,5 @@
 // Symbols of supports and arrows of loads.
-#include "figure/scene/stage.hpp"
+#include "figure/scene/shapes.hpp"
 
 namespace dotyk::figure {
 
@@ -113,11 +113,12 @@ void support_bounds(const Stage& stage, Bounds& bounds) {
 
 using Segment = std::array<Point, 2>;
 
-// Where a load arrow begins and ends.
-Segment load_arrow(const Stage& stage, const LoadArrow& load) {
-  const Point at = stage.at(load);
+// Where a load arrow begins and ends: pixels, the third towards the eye.
+std::array<Vec3, 2> load_arrow_in_space(const Stage& stage, const LoadArrow& load) {
+  const Vec3 at = stage.view.pixel(stage.place(load));
   if (!(stage.greatest_load > 0)) return {at, at};
-  const Point along = load_length * stage.em / stage.greatest_load * Point{dot(load.vector, stage.view.right), dot(load.vector, stage.view.up)};
+  const double longest = load_length * stage.em / stage.greatest_load;
+  const Vec3 along{longest * dot(load.vector, stage.view.right), longest * dot(load.vector, stage.view.up), longest * dot(load.vector, stage.view.towards)};
   // A load that pushes ends at the boundary, one that pulls begins there.
   bool pushes = true;
   for (const auto& [least, most] : stage.body_boxes) {
@@ -129,7 +130,12 @@ Segment load_arrow(const Stage& stage, const LoadArrow& load) {
     pushes = dot(plus(centre, load.position, -1), load.vector) >= 0;
     break;
   }
-  return pushes ? Segment{at - along, at} : Segment{at, at + along};
+  return pushes ? std::array{plus(at, along, -1), at} : std::array{at, plus(at, along)};
+}
+
+Segment load_arrow(const Stage& stage, const LoadArrow& load) {
+  const auto [tail, head] = load_arrow_in_space(stage, load);
+  return {Point{tail[0], tail[1]}, Point{head[0], head[1]}};
 }
 
 double distance(const Segment& segment, Point p) {
@@ -144,7 +150,9 @@ double distance(const Segment& a, const Segment& b) {
   return std::min({distance(a, b[0]), distance(a, b[1]), distance(b, a[0]), distance(b, a[1])});
 }
 
-void draw_loads(Stage& stage, vtkRenderer*) {
+void draw_loads(Stage& stage, vtkRenderer* renderer) {
+  const double width = std::max(1.5, stage.em / 11), tip = 0.6 * stage.em;
+  Arrows in_space(stage, width, tip);
   std::vector<Segment> drawn;
   for (const std::size_t i : stage.spaced(stage.at(stage.picture.loads), 0.95 * stage.em)) {
     const Segment arrow = load_arrow(stage, stage.picture.loads[i]);
@@ -153,8 +161,14 @@ void draw_loads(Stage& stage, vtkRenderer*) {
     // Along a boundary that is loaded along itself arrows would lie on each other.
     if (std::any_of(drawn.begin(), drawn.end(), [&](const Segment& other) { return distance(arrow, other) < 0.6 * stage.em; })) continue;
     drawn.push_back(arrow);
-    stage.over.arrow(arrow[0], arrow[1], std::max(1.5, stage.em / 11), 0.6 * stage.em, load_colour);
+    if (stage.plane) {
+      stage.over.arrow(arrow[0], arrow[1], width, tip, load_colour);
+    } else {
+      const auto [tail, head] = load_arrow_in_space(stage, stage.picture.loads[i]);
+      in_space.add(tail, head);
+    }
   }
+  in_space.show(renderer, load_colour);
 }
 
 void load_legend(const Stage& stage, std::vector<LegendEntry>& out) {
