@@ -25,10 +25,10 @@ Colour mix(const Anchors& anchors, double t) {
 }
 
 // "stress [MPa]", "stress [10⁶ Pa]": the power of ten stands with the unit.
-std::string label(const ScenePicture& p, int exponent) {
-  std::string unit = exponent ? (p.field_unit.empty() ? "× " : "") + power_of_ten(exponent) : "";
-  if (!p.field_unit.empty()) unit += (unit.empty() ? "" : " ") + p.field_unit;
-  return unit.empty() ? p.field_label : p.field_label + " [" + unit + "]";
+std::string label(const FieldLabel& field, int exponent) {
+  std::string unit = exponent ? (field.unit.empty() ? "× " : "") + power_of_ten(exponent) : "";
+  if (!field.unit.empty()) unit += (unit.empty() ? "" : " ") + field.unit;
+  return unit.empty() ? field.name : field.name + " [" + unit + "]";
 }
 
 Ticks bar_ticks(const ColourScale& scale) { return few_ticks(scale.low, scale.high, 5); }
@@ -111,22 +111,22 @@ vtkSmartPointer<vtkLookupTable> lookup_table(const ColourScale& scale) {
   return table;
 }
 
-double colour_bar_width(const ColourScale& scale, const ScenePicture& p, double em) {
-  if (!scale.shown || p.field_label.empty()) return 0;
+double colour_bar_width(const ColourScale& scale, const FieldLabel& field, double em) {
+  if (!scale.shown || field.name.empty()) return 0;
   const Ticks ticks = bar_ticks(scale);
   const double beside = (bar + tick + pad) * em + widest_label(ticks, em) + 0.4 * em + 1.3 * em;
   const auto above = [&](const char* name, double value) { return text_extent(extreme(name, value, ticks), small_label * em).x; };
   return std::max({beside, above("max", scale.greatest), above("min", scale.least)});
 }
 
-void draw_colour_bar(Canvas& canvas, const ColourScale& scale, const ScenePicture& p, double em, double left, double bottom, double top) {
-  if (!scale.shown || p.field_label.empty()) return;
+void draw_colour_bar(Canvas& canvas, const ColourScale& scale, const FieldLabel& field, double em, double left, double bottom, double top, double picture_width) {
+  if (!scale.shown || field.name.empty()) return;
   const Ticks ticks = bar_ticks(scale);
   // The name stands beside the bar, above it where that is too short.
-  const std::string name = label(p, ticks.exponent);
+  const std::string name = label(field, ticks.exponent);
   const bool upright = text_extent(name, least_letters * em).x <= top - bottom - 2 * (ends + 1.0) * em;
   if (!upright) {
-    const FittedText lines = fitted(name, em, p.width - 0.3 * em - left);
+    const FittedText lines = fitted(name, em, picture_width - 0.3 * em - left);
     canvas.text({left, top}, lines, {.up = Align::high});
     top -= lines.depth() + 1.3 * em;
   }

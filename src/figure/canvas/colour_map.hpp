@@ -26,10 +26,14 @@ ColourScale colour_scale(const ScenePicture& picture, const std::optional<Box>& 
 
 vtkSmartPointer<vtkLookupTable> lookup_table(const ColourScale& scale);
 
+struct FieldLabel {
+  std::string name, unit;  // no name: no bar; the unit may be empty
+};
+
 // The upright bar with ticks, extremes and label, and a triangle on an end beyond
 // which the field goes on: its width, and its drawing with the left edge at
 // `left` between bottom and top.
-double colour_bar_width(const ColourScale& scale, const ScenePicture& picture, double em);
-void draw_colour_bar(Canvas& canvas, const ColourScale& scale, const ScenePicture& picture, double em, double left, double bottom, double top);
+double colour_bar_width(const ColourScale& scale, const FieldLabel& label, double em);
+void draw_colour_bar(Canvas& canvas, const ColourScale& scale, const FieldLabel& label, double em, double left, double bottom, double top, double picture_width);
 
 }  // namespace dotyk::figure

@@ -3,6 +3,7 @@
 #include "figure/canvas/paper.hpp"
 #include "figure/canvas/sheet.hpp"
 #include "figure/chart/chart.hpp"
+#include "figure/chart/chart_look.hpp"
 #include "figure/door/drawing.hpp"
 
 namespace dotyk::figure {
@@ -13,27 +14,24 @@ namespace {
 std::array<double, 2> common_x(const std::vector<ChartPicture>& panels) {
   std::array<double, 2> range{INFINITY, -INFINITY};
   for (const ChartPicture& panel : panels) {
-    const Axis axis = fit_axis(panel, false);
+    const Axis axis = fit_axis(panel, Side::below);
     range = {std::min(range[0], axis.low), std::max(range[1], axis.high)};
   }
   return range;
 }
 
-bool has_legend(const ChartPicture& panel) {
-  return std::ranges::any_of(panel.series, [](const SeriesPicture& s) { return !s.name.empty(); });
-}
-
-// The panel whose legend serves all others that have one; none where these differ, or only one has.
+// The panel whose legend serves all others that have one, the longest of them; none where these differ, or only one has.
 const ChartPicture* common_legend(const std::vector<ChartPicture>& panels) {
-  const ChartPicture* first = nullptr;
+  const ChartPicture* longest = nullptr;
   bool several = false;
   for (const ChartPicture& panel : panels) {
-    if (!has_legend(panel)) continue;
-    if (first && !same_legend(*first, panel)) return nullptr;
-    several = first;
-    if (!first) first = &panel;
+    const Legend legend = chart_legend(panel, 1, 0);
+    if (legend.empty()) continue;
+    if (longest && !same_legend(*longest, panel)) return nullptr;
+    several = longest;
+    if (!longest || legend.height() > chart_legend(*longest, 1, 0).height()) longest = &panel;
   }
-  return several ? first : nullptr;
+  return several ? longest : nullptr;
 }
 
 double sum(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }

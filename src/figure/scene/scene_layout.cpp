@@ -211,7 +211,7 @@ Surroundings place_scene(Stage& stage) {
   stage.frame = {0, 0, 1.0 * p.width, 1.0 * p.height};
   for (int round = 0; round < 3; ++round) {
     stage.deformation_shows = round > 0 && displacement_shows(stage);
-    around.bar = colour_bar_width(stage.scale, p, em);
+    around.bar = colour_bar_width(stage.scale, {p.field_label, p.field_unit}, em);
     around.column = std::max(around.bar, around.inset);
     std::vector<LegendEntry> entries;
     for (const Layer& layer : stage.layers)
@@ -231,13 +231,13 @@ void draw_column(Stage& stage, const Surroundings& around) {
   const double right = p.width - 0.6 * em - 0.3 * (room.width() - stage.frame.width());
   if (inset > 0) {
     const double split = bar > 0 ? room.bottom + std::min(inset + 2.4 * em, 0.52 * room.height()) : room.top - 0.15 * room.height();
-    draw_colour_bar(stage.over, stage.scale, p, em, right - around.column + 0.9 * em, split + 0.6 * em, room.top);
+    draw_colour_bar(stage.over, stage.scale, {p.field_label, p.field_unit}, em, right - around.column + 0.9 * em, split + 0.6 * em, room.top, p.width);
     draw_inset(stage, {right - around.column, std::max(room.bottom, split - inset - 2.4 * em), right - around.column + inset, split});
     return;
   }
   const double height = std::clamp(stage.frame.height(), std::min(12 * em, room.height()), room.height());
   const double middle = stage.frame.centre().y;
-  draw_colour_bar(stage.over, stage.scale, p, em, right - bar, middle - height / 2, middle + height / 2);
+  draw_colour_bar(stage.over, stage.scale, {p.field_label, p.field_unit}, em, right - bar, middle - height / 2, middle + height / 2, p.width);
 }
 
 }  // namespace

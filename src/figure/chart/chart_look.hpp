@@ -1,0 +1,46 @@
+// How series look: colours, markers and dashes, and the legend that explains them.
+#pragma once
+
+#include "figure/canvas/axes.hpp"
+#include "figure/canvas/legend.hpp"
+
+namespace dotyk::figure {
+
+struct Look {
+  const SeriesPicture& data;
+  Colour colour;
+  Marker marker;
+  bool dashed;
+};
+
+// Of every series, in their order.
+std::vector<Look> looks(const std::vector<SeriesPicture>& series);
+
+// Have reference curves their names beside them, not in the legend? Where several have a name: in a legend they look alike.
+bool names_beside(const ChartPicture& picture);
+
+// The colour of the right axis: that of its only series, of several the one of all axes.
+Colour right_colour(const ChartPicture& picture);
+
+// Draws parts of series; lines and markers are sized by the height of letters.
+struct Pen {
+  double em;
+
+  double line_width() const { return std::max(1.5, em / 9); }
+  double front_width() const { return 0.9 * em; }
+  double marker_size(const SeriesPicture& s) const { return (s.style == SeriesStyle::points ? 0.45 : 0.5) * em; }
+
+  void sample(Canvas& canvas, const Look& look, const Box& box) const;
+  // `rim`: pixels that it is broader on both sides.
+  void stroke(Canvas& canvas, std::span<const Point> points, const Look& look, double rim = 0) const;
+  void mark(Canvas& canvas, const Look& look, Point at, double rim = 0) const;
+  // From end to end, with caps.
+  void whisker(Canvas& canvas, const std::array<Point, 2>& ends, const Look& look) const;
+};
+
+// Do series and cells have the same names, and look the same, in the legends of both?
+bool same_legend(const ChartPicture& a, const ChartPicture& b);
+// In rows no wider than so many pixels; 0: one name below the other. The picture must outlive it.
+Legend chart_legend(const ChartPicture& picture, double em, double width);
+
+}  // namespace dotyk::figure
