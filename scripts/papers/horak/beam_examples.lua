@@ -30,7 +30,7 @@ local function tidy(value) return math.abs(value) < 1e-12 and 0 or value end
 local function uniform(M, T)
   return dotyk.beam{ load = -1, cells = 4, left = { deflection = law.friction(T), rotation = law.friction(M) }, right = { deflection = law.friction(1) } }
 end
-local map <const> = common.map{ "turns (1st exceptional case)", "slips (3rd exceptional case)", "neither (coupled)", "no solution" }
+local map <const> = common.map{ "turns (1st case)", "slips (3rd case)", "neither (coupled)", "no solution" }
 local claimed, right = 0, 0
 for i = 0, 19 do
   for j = 0, 19 do
@@ -46,7 +46,7 @@ for i = 0, 19 do
       near(r.rotation, m == M and (M - 1 / 8) / 3 or 0)
       near(r.deflection, m == T - 1 / 2 and (T - 5 / 8) / 3 or 0)
       near(s:reaction "right".deflection, 0)
-      regime = m == M and "turns (1st exceptional case)" or m == 1 / 8 and "neither (coupled)" or "slips (3rd exceptional case)"
+      regime = m == M and "turns (1st case)" or m == 1 / 8 and "neither (coupled)" or "slips (3rd case)"
     end
     map:add(regime, M, T)
     if T > 1 / 2 then claimed, right = claimed + 1, right + (regime:find "turns" and 1 or 0) end
@@ -117,7 +117,7 @@ local function forces(a, b) return { { x = 0.25, force = a }, { x = 0.8, force =
 local sweeps <const> = { { "q = −1: m", nil, -1 }, { "two forces: m", forces(-1, 0.25) } }
 local series <const> = {}
 for k, sweep in ipairs(sweeps) do
-  local m <const>, R <const> = common.curve(sweep[1], { style = "line" }), common.curve(k == 1 and "q = −1: R" or "two forces: R", { style = "points" })
+  local m <const>, R <const> = common.curve(sweep[1], { style = "line" }), common.curve((sweep[1]:gsub("m$", "R")), { style = "points", axis = "right", twin = true })
   local W, clamped = 1 / 2, 1 / 8
   if sweep[2] then W, clamped = moments(sweep[2]) end
   for i = 1, 80 do
@@ -133,7 +133,7 @@ for k, sweep in ipairs(sweeps) do
 end
 local lines <const> = {}
 for _, sign in ipairs{ 1, -1 } do
-  local loads <const>, curve <const> = forces(-sign, 0.3125 * sign), common.curve(sign == 1 and "forces −1, 0.3125: free at 1" or "forces 1, −0.3125: supported at 1", { style = "line" })
+  local loads <const>, curve <const> = forces(-sign, 0.3125 * sign), common.curve(sign == 1 and "−1, 0.3125: free" or "1, −0.3125: supported", { style = "line" })
   assert(check(loads, 0.2) == (sign == 1 and "clamped, free" or "clamped, supported"))
   local s <const> = dotyk.solve(stopped(loads, 0.2))
   for i = 0, 100 do curve:add(i / 100, 1000 * s:deflection(i / 100)) end
@@ -165,8 +165,8 @@ end
 print(("   40 times: equal to the clamped and supported beam; greatest moment %.4f"):format(most))
 assert(most < 0.4)
 
-local panels <const> = { { title = "Example 1, q = −1: claimed to turn for T₁ > 0.5", x = "M₁", y = "T₁", series = map:series() },
-  { title = "Example 2: moment at 0, reaction at 1", x = "M₁", y = "m, R", series = series },
+local panels <const> = { { title = "Example 1, q = −1: claimed to turn for T₁ > 0.5", x = "M₁", y = "T₁", map = map:cells(), series = {} },
+  { title = "Example 2", x = "M₁", y = "moment m at 0", y_right = "reaction R at 1", series = series },
   { title = "Example 3: W = 0, M₁ = 0.2", x = "x", y = "1000 u", series = lines } }
 local function border(x, y) table.insert(panels[1].series, { x = x, y = y, reference = true, style = "line" }) end
 border({ 0, 1 / 8, 1 / 4 }, { 1 / 2, 5 / 8, 5 / 8 })

@@ -115,11 +115,11 @@ dotyk.chart{ file = "images/mortar.png", size = {1000, 1250}, panels = {
   { title = "Patch test, 7 edges on 5", x = "x", y = "p / exact",
     series = { series("mortar", flat:contact(flat_contact).nodes, 1, p),
                series("node to segment", uneven:contact(uneven_contact).nodes, 1, p) } },
-  { title = ("Hertz, %d cells on %d"):format(finest, 7 * finest // 5), x = "x / a", y = "p / p0",
+  { title = ("Hertz, %d cells on %d"):format(finest, 7 * finest // 5), x = "x / a", y = "p / p_0",
     series = { { name = "Hertz", x = hx, y = hy, reference = true }, series("mortar", shown.mortar.nodes, shown.mortar.a, shown.mortar.p0),
                series("node to segment", shown.feet.nodes, shown.feet.a, shown.feet.p0) } },
-  { title = "Hertz, error in L2", x = "cells along an edge", y = "error [%]", log = "xy", slopes = { -1 },
-    series = { { name = "matching nodes", x = chart.x, y = chart.matching, front = true }, { name = "mortar, 5:7", x = chart.x, y = chart.mortar },
+  { title = "Hertz, error in L²", x = "cells along an edge", y = "error [%]", log = "xy", slopes = { -1 },
+    series = { { name = "matching nodes", x = chart.x, y = chart.matching }, { name = "mortar, 5:7", x = chart.x, y = chart.mortar },
                { name = "node to segment, 5:7", x = chart.x, y = chart.feet } } } } }
 local scene <const> = hertz.scene(40, 56, "mortar", "Q1", 0.2)
 dotyk.solve(scene):render{ file = "images/mortar_hertz.png", field = "von_mises", unit = "MPa", deform = 1, edges = true, window = {0, -7, 9, 4} }

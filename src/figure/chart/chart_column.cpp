@@ -34,6 +34,19 @@ const ChartPicture* common_legend(const std::vector<ChartPicture>& panels) {
   return several ? longest : nullptr;
 }
 
+// Of all maps that show the same.
+void share_colours(std::vector<ChartPicture>& panels) {
+  for (ChartPicture& panel : panels) {
+    if (!panel.map || !panel.map->names.empty()) continue;
+    std::array<double, 2> range{INFINITY, -INFINITY};
+    for (const ChartPicture& other : panels)
+      if (other.map && other.map->names.empty() && other.map->label == panel.map->label)
+        for (const double v : other.map->values)
+          if (!std::isnan(v)) range = {std::min(range[0], v), std::max(range[1], v)};
+    if (range[0] <= range[1]) panel.map->range = range;
+  }
+}
+
 double sum(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
 
 // Panels row by row. All plots are equally high, and their frames stand in line along rows and columns.
@@ -41,6 +54,7 @@ class Grid {
 public:
   Grid(const ChartColumn& picture, double em, bool legends) : columns_(static_cast<std::size_t>(picture.columns)), width_(static_cast<double>(picture.width) / picture.columns) {
     panels_ = picture.panels;
+    share_colours(panels_);
     for (std::size_t i = 0; i < panels_.size(); ++i) {
       panels_[i].width = static_cast<int>(width_), panels_[i].height = picture.height / static_cast<int>(rows());
       if (picture.shared_x) panels_[i].x_range = common_x(picture.panels);

@@ -24,7 +24,7 @@ class Chart {
 public:
   // Draws itself, from the canvas's origin.
   Chart(const ChartPicture& picture, Canvas& canvas, const ChartFrame& frame)
-      : picture_(picture), canvas_(canvas), frame_(frame), em_(frame.em), looks_(looks(picture.series)), series_(canvas, axes_, looks_, em_), legend_({}, em_) {
+      : picture_(picture), canvas_(canvas), frame_(frame), em_(frame.em), looks_(looks(picture)), series_(canvas, axes_, looks_, em_), legend_({}, em_) {
     Axes& axes = axes_.left;
     axes.em = em_;
     axes.x = fit_axis(picture, Side::below), axes.y = fit_axis(picture, Side::left);
@@ -70,7 +70,7 @@ private:
     x.from = room_.left, x.to = room_.right;
     y.from = room_.bottom, y.to = room_.top;
     if (y.left_out) share_height(y);
-    if (picture_.polar) place_polar(axes_.left, picture_.map.has_value());
+    if (picture_.polar) place_polar(axes_.left);
     const auto [right, ticks] = std::tuple(axes_.right.y, axes_.right.y_ticks);
     axes_.right = axes_.left;
     if (right_) axes_.right.y = right, axes_.right.y.from = y.from, axes_.right.y.to = y.to, axes_.right.y_ticks = ticks;
@@ -81,7 +81,7 @@ private:
     Ticks out;
     for (const std::string& name : picture_.categories) out.ticks.push_back({static_cast<double>(out.ticks.size() + 1), name});
     if (!out.ticks.empty() || picture_.polar) return out;
-    if (picture_.map && !x.log) return map_ticks(picture_.map->x);
+    if (picture_.map && !x.log && !map_ticks(picture_.map->x).ticks.empty()) return map_ticks(picture_.map->x);
     const double labels = std::max(3.0, room_.width() > 1 ? room_.width() / (4.5 * em_) : 6);
     return x.log ? log_ticks(x.low, x.high, static_cast<int>(labels) + 1) : linear_ticks(x.low, x.high, std::min(8, static_cast<int>(labels)));
   }
@@ -89,7 +89,7 @@ private:
   Ticks y_ticks(const Axis& y) const {
     const double labels = std::max(3.0, room_.height() > 1 ? room_.height() / (3.2 * em_) : 6);
     if (picture_.polar) return {};
-    if (picture_.map && !y.log) return map_ticks(picture_.map->y);
+    if (picture_.map && !y.log && !map_ticks(picture_.map->y).ticks.empty()) return map_ticks(picture_.map->y);
     if (y.left_out) return broken_ticks(y, std::min(8.0, labels));
     return y.log ? log_ticks(y.low, y.high, static_cast<int>(labels) + 1) : few_ticks(y.low, y.high, std::min(8.0, labels));
   }
@@ -138,7 +138,6 @@ private:
   void occupy() {
     occupied_ = {};
     series_.occupy(occupied_);
-    if (picture_.map && !picture_.polar) occupied_.add(room_);
     if (picture_.polar) occupy_polar(axes_.left, occupied_);
     texts_ = plot_texts(picture_, axes_, occupied_);
   }
@@ -148,7 +147,8 @@ private:
     if (!frame_.legend) return std::nullopt;
     legend_ = chart_legend(picture_, em_, 0);
     if (legend_.empty()) return std::nullopt;
-    if (const auto corner = free_place(occupied_, room_, {legend_.width(), legend_.height()}, 0.6 * em_)) return corner;
+    const bool covered = picture_.map && !picture_.polar;
+    if (const auto corner = free_place(occupied_, room_, {legend_.width(), legend_.height()}, 0.6 * em_); corner && !covered) return corner;
     legend_ = chart_legend(picture_, em_, room_.width());
     place(legend_.height());
     occupy();

@@ -82,7 +82,8 @@ Axis fit_axis(const ChartPicture& chart, Side side) {
     return axis;
   }
   if (chart.polar) {
-    axis.low = 0, axis.high = high > 0 ? high : 1;
+    constexpr double kBeyond = 1.08;  // of the greatest radius
+    axis.low = 0, axis.high = high > 0 ? kBeyond * high : 1;
     return axis;
   }
   if (axis.log) {

@@ -31,23 +31,24 @@ std::vector<int> places_of_methods(const std::vector<SeriesPicture>& series) {
 std::vector<Look> named(const ChartPicture& picture) {
   const bool beside = names_beside(picture);
   std::vector<Look> out;
-  for (const Look& look : looks(picture.series))
+  for (const Look& look : looks(picture))
     if (!look.data.name.empty() && !(beside && look.data.reference)) out.push_back(look);
   return out;
 }
 
 std::string name_of(const Look& look, const ChartPicture& picture) {
   const bool told = !look.data.right || look.colour == right_colour(picture);
-  return look.data.name + (told ? "" : " (right)");
+  return look.data.name + (told ? "" : " →");
 }
 
 }  // namespace
 
-// Reference curves, statuses and twins take no colour of their own, so the k-th series keeps its own. Beside statuses only
-// colours that are none of theirs.
-std::vector<Look> looks(const std::vector<SeriesPicture>& series) {
+// Reference curves, statuses and twins take no colour of their own, so the k-th series keeps its own. Beside statuses, and on the
+// cells of a map, only colours that are none of theirs.
+std::vector<Look> looks(const ChartPicture& picture) {
   constexpr int kColours = 7;
-  constexpr std::array clear{0, 2, 6};
+  constexpr std::array clear{0, 2, 6}, clear_of_cells{6, 3, 2};
+  const std::vector<SeriesPicture>& series = picture.series;
   const bool statuses = std::any_of(series.begin(), series.end(), [](const SeriesPicture& s) { return s.status.has_value(); });
   const std::vector<int> places = statuses ? std::vector<int>{} : places_of_methods(series);
   std::vector<Look> out;
@@ -56,7 +57,7 @@ std::vector<Look> looks(const std::vector<SeriesPicture>& series) {
     if (takes_colour(s)) ++own;
     int k = std::max(0, own - 1);
     if (!places.empty()) k = places[k];
-    const Colour colour = s.front ? front_yellow : s.reference ? reference_grey : s.status ? status_colour(*s.status) : series_colour(statuses ? clear[k % clear.size()] : k);
+    const Colour colour = s.front ? front_yellow : s.reference ? reference_grey : s.status ? status_colour(*s.status) : series_colour(statuses ? clear[k % clear.size()] : picture.map ? clear_of_cells[k % clear.size()] : k);
     out.push_back({s, colour, s.status ? status_marker(*s.status) : markers[k % markers.size()], s.reference || s.twin || (!statuses && k >= kColours)});
   }
   return out;
@@ -68,7 +69,7 @@ bool names_beside(const ChartPicture& picture) {
 
 Colour right_colour(const ChartPicture& picture) {
   std::vector<Colour> own;
-  for (const Look& look : looks(picture.series))
+  for (const Look& look : looks(picture))
     if (look.data.right && !look.data.reference) own.push_back(look.colour);
   return own.size() == 1 ? own.front() : axes_ink;
 }

@@ -14,7 +14,7 @@ struct Look {
 };
 
 // Of every series, in their order.
-std::vector<Look> looks(const std::vector<SeriesPicture>& series);
+std::vector<Look> looks(const ChartPicture& picture);
 
 // Have reference curves their names beside them, not in the legend? Where several have a name: in a legend they look alike.
 bool names_beside(const ChartPicture& picture);

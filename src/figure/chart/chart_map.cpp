@@ -19,6 +19,7 @@ ColourScale scale_of(const ChartMap& map) {
   scale.shown = map.names.empty() && values.least <= values.greatest;
   if (!scale.shown) return scale;
   scale.low = scale.least = values.least, scale.high = scale.greatest = values.greatest;
+  if (map.range) scale.low = (*map.range)[0], scale.high = (*map.range)[1];
   scale.diverging = scale.low < 0 && scale.high > 0;
   if (scale.low == scale.high) scale.low -= 0.5, scale.high += 0.5;
   return scale;
@@ -42,8 +43,8 @@ std::vector<Point> sector(const Axes& axes, const Box& cell) {
 void fill(Canvas& canvas, const Axes& axes, const Box& cell, Colour colour) {
   constexpr double kUnder = 0.7;  // pixels
   if (axes.pole) {
-    const double outer = axes.y.pixel(cell.top);
-    return canvas.convex(sector(axes, {cell.left, cell.bottom, cell.right + 60 * kUnder / std::max(outer, 1.0), cell.top}), colour);
+    const double outer = std::max(1.0, axes.y.pixel(cell.top));
+    return canvas.convex(sector(axes, {cell.left, cell.bottom, cell.right + 60 * kUnder / outer, cell.top * (1 + kUnder / outer)}), colour);
   }
   const Point low = axes.at(cell.left, cell.bottom), high = axes.at(cell.right, cell.top);
   canvas.box({low.x, low.y, high.x + kUnder, high.y + kUnder}, colour);
@@ -68,7 +69,10 @@ std::vector<double> cell_borders(const std::vector<double>& at, bool log) {
 
 Ticks map_ticks(const std::vector<double>& at) {
   Ticks out;
-  for (const double value : at) out.ticks.push_back({value, number(value)});
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    if (at[i] != std::floor(at[i]) || (i > 0 && at[i] != at[i - 1] + 1)) return {};
+    out.ticks.push_back({at[i], number(at[i])});
+  }
   return out;
 }
 

@@ -9,7 +9,7 @@ namespace dotyk::figure {
 // Borders of the cells around values that ascend: one more than there are values.
 std::vector<double> cell_borders(const std::vector<double>& at, bool log);
 
-// Of a linear axis: at the values.
+// Ticks at the values, where they are whole numbers one after the other; else none.
 Ticks map_ticks(const std::vector<double>& at);
 
 void draw_map(Canvas& canvas, const ChartMap& map, const Axes& axes);

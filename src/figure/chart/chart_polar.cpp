@@ -57,16 +57,11 @@ double freest_ray(const Axes& axes, const Occupied& occupied) {
 
 Point polar_rim(double em) { return {angle_gap * em + text_extent(name_of(180), em).x, (angle_gap + 1) * em}; }
 
-void place_polar(Axes& axes, bool map) {
+void place_polar(Axes& axes) {
   const Point beside = polar_rim(axes.em);
   axes.pole = axes.room.centre();
   axes.y.from = 0, axes.y.to = std::max(1.0, std::min(axes.room.width() / 2 - beside.x, axes.room.height() / 2 - beside.y));
-  const int wanted = std::clamp(static_cast<int>(axes.y.to / (1.8 * axes.em)), 2, 5);
-  axes.y_ticks = linear_ticks(axes.y.low, axes.y.high, wanted);
-  if (const std::vector<double> at = axes.y_ticks.labelled(); !map && at.size() > 1 && at.back() < axes.y.high * (1 - 1e-9)) {
-    axes.y.high = at.back() + at[1] - at[0];
-    axes.y_ticks = linear_ticks(axes.y.low, axes.y.high, wanted);
-  }
+  axes.y_ticks = linear_ticks(axes.y.low, axes.y.high, std::clamp(static_cast<int>(axes.y.to / (1.8 * axes.em)), 2, 5));
   std::erase_if(axes.y_ticks.ticks, [&](const Tick& t) { return t.value <= 0 || t.label.empty(); });
   axes.x_ticks = {};
 }
@@ -77,13 +72,13 @@ void occupy_polar(const Axes& axes, Occupied& occupied) {
 }
 
 void draw_polar_grid(Canvas& canvas, const Axes& axes) {
+  canvas.polyline(circle(axes, axes.y.to), std::max(1.2, axes.em / 18), axes_ink, {}, true);
   const double width = std::max(1.0, axes.em / 24);
   for (const double r : axes.y_ticks.labelled()) canvas.polyline(circle(axes, axes.y.pixel(r)), width, axes_grid, {}, true);
   for (int degrees = 0; degrees < 360; degrees += ray_every) canvas.line(*axes.pole, *axes.pole + axes.y.to * direction(degrees), width, axes_grid);
 }
 
 void draw_polar_labels(Canvas& canvas, const Axes& axes, const Occupied& occupied) {
-  canvas.polyline(circle(axes, axes.y.to), std::max(1.2, axes.em / 18), axes_ink, {}, true);
   for (int degrees = 0; degrees < 360; degrees += ray_every)
     canvas.text(angle_box(axes, degrees).centre(), name_of(degrees), {.size = axes.em, .across = Align::middle, .up = Align::middle});
   const std::vector<Box> boxes = radius_boxes(axes, freest_ray(axes, occupied));

@@ -126,7 +126,8 @@ std::vector<PlotText> plot_texts(const ChartPicture& picture, const ChartAxes& a
 
 void draw(Canvas& canvas, const PlotText& text, double em) {
   if (text.leader) canvas.line((*text.leader)[0], (*text.leader)[1], std::max(1.0, em / 20), text.colour);
-  canvas.text(text.box.centre(), text.text, {.size = small_text * em, .across = Align::middle, .up = Align::middle, .upright = text.upright, .colour = text.colour, .halo = true});
+  canvas.box(text.box, {255, 255, 255}, 0.85);
+  canvas.text(text.box.centre(), text.text, {.size = small_text * em, .across = Align::middle, .up = Align::middle, .upright = text.upright, .colour = text.colour});
 }
 
 }  // namespace dotyk::figure

@@ -198,6 +198,7 @@ struct ChartMap {
   std::vector<double> x, y;                 // ascending; borders of cells are halfway between, on a logarithmic axis of the logarithms
   std::vector<double> values;               // at (x_i, y_j): values[j · n_x + i]; nan: not applicable, white with a cross
   std::string label, unit;                  // of the colour bar
+  std::optional<std::array<double, 2>> range;  // of the colours; default: the values', of panels those of all maps with this label
   std::vector<std::string> names;           // not empty: values count these from 1, each has a colour and stands in the legend
 };
 constexpr std::size_t most_map_names = 6;   // as many colours differ in grey too

@@ -49,7 +49,7 @@ std::vector<Key> series_keys() {
       key::vector("x_low", "left end of a whisker at each point").into(&S::x_low), key::vector("x_high", "right end of it").into(&S::x_high),
       key::choice<SeriesStyle>("style", {{"line", SeriesStyle::line}, {"points", SeriesStyle::points}, {"both", SeriesStyle::both}}, "how it is drawn").into(&S::style),
       key::boolean("reference", "a reference curve: dashed, without markers; of several the names stand beside them, not in the legend").into(&S::reference),
-      key::choice<bool>("axis", {{"left", false}, {"right", true}}, "which y axis it has").into(&S::right),
+      key::choice<bool>("axis", {{"left", false}, {"right", true}}, "which y axis it has; on the right an arrow in the legend says so, or the colour of an axis that has no other series").into(&S::right),
       key::boolean("crossed", "markers pale and crossed out, for runs that failed; without y in a strip above "
                     "the plot, \"not converged\", a row for each such series").into(&S::crossed),
       key::boolean("front", "a broad pale line beneath all others, for what is best").into(&S::front),
@@ -62,7 +62,7 @@ Key map_key() {
   using figure::ChartMap;
   return key::table("map", {key::vector("x", "abscissas, ascending").some().required().into(&ChartMap::x), key::vector("y", "ordinates, ascending").some().required().into(&ChartMap::y),
                             key::matrix("values", "a row for each y, nan where it does not apply").or_nan().required(),
-                            key::string("label", "of the colour bar; needed without 'names'").into(&ChartMap::label), key::string("unit", "of the values").into(&ChartMap::unit),
+                            key::string("label", "of the colour bar; needed without 'names'; maps with one label have one scale in all panels").into(&ChartMap::label), key::string("unit", "of the values").into(&ChartMap::unit),
                             key::list("names", key::string("", ""), "what the values 1, 2, … stand for, in place of a colour bar").count(1, figure::most_map_names).into(&ChartMap::names)},
                     "coloured cells around the points of a grid, beneath the series");
 }
