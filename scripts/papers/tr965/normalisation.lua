@@ -143,8 +143,8 @@ end
 local fit <const> = include "../../lib/least_squares.lua"
 print "\n(b) a cylinder's facets: S(r) is the load's moment about the axis, M that of the support p(v) = 0; p(u)/p(r) and screws without p"
 print " S(r)   n   greatest S(r)        M     M + S(r)   without p: det   p(u)/p(r)   to it with p: energy   forces"
-local limit_curve <const> = common.curve "greatest S(r) that facets carry"
-local turned <const>, forces_curve <const>, energy_curve <const> = common.curve("turn p(u)/p(r) without p", { axis = "right" }), common.curve "contact forces", common.curve "energy"
+local limit_curve <const> = common.curve "greatest S(r)"
+local turned <const>, forces_curve <const>, energy_curve <const> = common.curve("turn p(u)/p(r)", { axis = "right" }), common.curve "contact forces", common.curve "energy"
 local errors <const>, orders <const>, refused, limits = {}, {}, 0, {}
 for i, moment in ipairs{ 0, 0.1 } do
   errors[i] = common.curve(("M + S(r), S(r) = %g"):format(moment))

@@ -20,18 +20,19 @@ std::array<double, 2> common_x(const std::vector<ChartPicture>& panels) {
   return range;
 }
 
-// The panel whose legend serves all others that have one, the longest of them; none where these differ, or only one has.
+// The panel whose legend serves all others that have one, the longest; none where some have other entries or such as depend on the
+// room, or only one has a legend.
 const ChartPicture* common_legend(const std::vector<ChartPicture>& panels) {
   const ChartPicture* longest = nullptr;
-  bool several = false;
+  double most = 0;
+  std::ptrdiff_t with = 0;
   for (const ChartPicture& panel : panels) {
-    const Legend legend = chart_legend(panel, 1, 0);
-    if (legend.empty()) continue;
-    if (longest && !same_legend(*longest, panel)) return nullptr;
-    several = longest;
-    if (!longest || legend.height() > chart_legend(*longest, 1, 0).height()) longest = &panel;
+    const double height = chart_legend(panel, 1, 0).height();
+    with += height > 0;
+    if (height > most) most = height, longest = &panel;
   }
-  return several ? longest : nullptr;
+  const bool serves = std::ranges::all_of(panels, [&](const ChartPicture& panel) { return !names_beside(panel) && (!longest || legend_serves(*longest, panel)); });
+  return serves && with > 1 ? longest : nullptr;
 }
 
 // Of all maps that show the same.

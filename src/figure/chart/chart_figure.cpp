@@ -139,19 +139,23 @@ private:
     occupied_ = {};
     series_.occupy(occupied_);
     if (picture_.polar) occupy_polar(axes_.left, occupied_);
-    texts_ = plot_texts(picture_, axes_, occupied_);
+    texts_ = plot_texts(picture_, axes_, occupied_, crowded_);
   }
 
   // The lower left of the legend: at a free place among the curves; where there is none in rows above them, and all is placed anew.
   std::optional<Point> place_legend() {
     if (!frame_.legend) return std::nullopt;
-    legend_ = chart_legend(picture_, em_, 0);
+    legend_ = chart_legend(picture_, em_, 0, crowded_);
     if (legend_.empty()) return std::nullopt;
     const bool covered = picture_.map && !picture_.polar;
     if (const auto corner = free_place(occupied_, room_, {legend_.width(), legend_.height()}, 0.6 * em_); corner && !covered) return corner;
-    legend_ = chart_legend(picture_, em_, room_.width());
-    place(legend_.height());
-    occupy();
+    // Less room may leave names without a place, which the legend then has too.
+    for (std::size_t before = picture_.series.size() + 1; before != crowded_.size();) {
+      before = crowded_.size();
+      legend_ = chart_legend(picture_, em_, room_.width(), crowded_);
+      place(legend_.height());
+      occupy();
+    }
     return Point{room_.left + (room_.width() - legend_.width()) / 2, room_.top + strip_height() + 0.1 * em_};
   }
 
@@ -254,6 +258,7 @@ private:
   Box& room_ = axes_.left.room;
   double indent_ = 0;  // of a plot narrower than it might be
   std::vector<PlotText> texts_;
+  SeriesSet crowded_;  // reference curves whose names have no place in the plot
   Occupied occupied_;
 };
 

@@ -28,11 +28,11 @@ std::vector<int> places_of_methods(const std::vector<SeriesPicture>& series) {
 }
 
 // Those of a legend.
-std::vector<Look> named(const ChartPicture& picture) {
+std::vector<Look> named(const ChartPicture& picture, const std::set<const SeriesPicture*>& also = {}) {
   const bool beside = names_beside(picture);
   std::vector<Look> out;
   for (const Look& look : looks(picture))
-    if (!look.data.name.empty() && !(beside && look.data.reference)) out.push_back(look);
+    if (!look.data.name.empty() && !(beside && look.data.reference && !also.contains(&look.data))) out.push_back(look);
   return out;
 }
 
@@ -102,19 +102,20 @@ void Pen::whisker(Canvas& canvas, const std::array<Point, 2>& ends, const Look& 
   for (const Point& end : ends) canvas.line(end - cap, end + cap, width, look.colour);
 }
 
-bool same_legend(const ChartPicture& a, const ChartPicture& b) {
-  const std::vector<Look> one = named(a), other = named(b);
-  const auto names = [](const ChartPicture& p) { return p.map ? p.map->names : std::vector<std::string>(); };
-  return names(a) == names(b) && std::equal(one.begin(), one.end(), other.begin(), other.end(), [&](const Look& x, const Look& y) {
-    const auto look = [](const Look& l) { return std::tuple(l.marker, l.dashed, l.data.style, l.data.reference, l.data.front, l.data.crossed, l.data.bars, l.data.low.empty()); };
-    return x.colour == y.colour && name_of(x, a) == name_of(y, b) && look(x) == look(y);
-  });
+bool legend_serves(const ChartPicture& with, const ChartPicture& other) {
+  const auto look = [](const Look& l) { return std::tuple(l.data.reference ? Marker::disc : l.marker, l.dashed, l.data.style, l.data.reference, l.data.front, l.data.crossed, l.data.bars, l.data.low.empty()); };
+  const std::vector<Look> those = named(with);
+  const auto found = [&](const Look& y) {
+    return std::ranges::any_of(those, [&](const Look& x) { return x.colour == y.colour && name_of(x, with) == name_of(y, other) && look(x) == look(y); });
+  };
+  const bool cells = !other.map || (with.map && with.map->names == other.map->names);
+  return cells && std::ranges::all_of(named(other), found);
 }
 
-Legend chart_legend(const ChartPicture& picture, double em, double width) {
+Legend chart_legend(const ChartPicture& picture, double em, double width, const std::set<const SeriesPicture*>& also) {
   constexpr double kLetters = 0.92;
   std::vector<LegendEntry> entries = picture.map ? map_legend(*picture.map) : std::vector<LegendEntry>();
-  for (const Look& look : named(picture))
+  for (const Look& look : named(picture, also))
     entries.push_back({name_of(look, picture), [pen = Pen{em}, look](Canvas& canvas, const Box& box) { pen.sample(canvas, look, box); }});
   return Legend(std::move(entries), kLetters * em, width);
 }

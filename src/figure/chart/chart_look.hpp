@@ -1,6 +1,8 @@
 // How series look: colours, markers and dashes, and the legend that explains them.
 #pragma once
 
+#include <set>
+
 #include "figure/canvas/axes.hpp"
 #include "figure/canvas/legend.hpp"
 
@@ -38,9 +40,10 @@ struct Pen {
   void whisker(Canvas& canvas, const std::array<Point, 2>& ends, const Look& look) const;
 };
 
-// Do series and cells have the same names, and look the same, in the legends of both?
-bool same_legend(const ChartPicture& a, const ChartPicture& b);
+// Has the legend of one all that the other's has, with the same names and looks?
+bool legend_serves(const ChartPicture& with, const ChartPicture& other);
 // In rows no wider than so many pixels; 0: one name below the other. The picture must outlive it.
-Legend chart_legend(const ChartPicture& picture, double em, double width);
+// `also`: reference curves that are in it though others have their names beside them.
+Legend chart_legend(const ChartPicture& picture, double em, double width, const std::set<const SeriesPicture*>& also = {});
 
 }  // namespace dotyk::figure

@@ -62,7 +62,8 @@ void SeriesDrawing::draw_band(const Look& look) {
 
 // No line is hidden: where one lies beneath later ones it is broader than these.
 void SeriesDrawing::draw_lines() {
-  const double width = pen_.line_width(), near = 0.75 * width, rim = 0.75 * width, least = 1.5 * pen_.em;
+  constexpr int kDeepest = 3;
+  const double width = pen_.line_width(), near = 0.75 * width, rim = 0.75 * width, least = 3 * pen_.em;
   const Box& room = axes_.left.room;
   std::vector<std::vector<std::vector<Point>>> lines;
   std::vector<Neighbourhood> solid;  // about those that hide what is beneath
@@ -79,7 +80,7 @@ void SeriesDrawing::draw_lines() {
     const std::vector<Neighbourhood> later(solid.begin() + (std::ranges::upper_bound(of, k) - of.begin()), solid.end());
     for (const auto& curve : lines[k]) {
       pen_.stroke(canvas_, curve, looks_[k]);
-      for (const HiddenPart& part : hidden_parts(curve, later, room, least)) pen_.stroke(canvas_, part.points, looks_[k], part.depth * rim);
+      for (const HiddenPart& part : hidden_parts(curve, later, room, least)) pen_.stroke(canvas_, part.points, looks_[k], std::min(part.depth, kDeepest) * rim);
     }
   }
 }
@@ -111,8 +112,9 @@ std::vector<Point> SeriesDrawing::marked(const SeriesPicture& s) const {
   return out;
 }
 
-// One that lies on a later one is larger.
+// Of points alone one that lies beneath later ones is larger; of curves the lines tell.
 void SeriesDrawing::draw_markers() {
+  constexpr std::ptrdiff_t kDeepest = 2;
   const double near = 0.75 * pen_.line_width(), rim = 0.1 * pen_.em;
   const Box room = axes_.left.room.grown(1);
   std::vector<std::vector<Point>> places;
@@ -122,8 +124,8 @@ void SeriesDrawing::draw_markers() {
     for (const Point& p : places[k]) later[k].add(p);
   for (std::size_t k = 0; k < looks_.size(); ++k)
     for (const Point& p : places[k]) {
-      const auto above = std::count_if(later.begin() + static_cast<std::ptrdiff_t>(k) + 1, later.end(), [&](const Neighbourhood& n) { return n.holds(p); });
-      pen_.mark(canvas_, looks_[k], p, static_cast<double>(above) * rim);
+      const auto above = looks_[k].data.style != SeriesStyle::points ? 0 : std::count_if(later.begin() + static_cast<std::ptrdiff_t>(k) + 1, later.end(), [&](const Neighbourhood& n) { return n.holds(p); });
+      pen_.mark(canvas_, looks_[k], p, static_cast<double>(std::min(above, kDeepest)) * rim);
     }
 }
 

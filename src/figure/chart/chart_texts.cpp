@@ -32,17 +32,6 @@ public:
     return found;
   }
 
-  // On the curve itself, where least else is.
-  Candidate on(const std::vector<Point>& curve, Point size) const {
-    Candidate found;
-    for (const Point& p : spread(curve)) {
-      const Box box = Box::about(p, size);
-      const double cost = -others_.distance(box);
-      if (room_.holds({box.left, box.bottom}) && room_.holds({box.right, box.top}) && cost < found.cost) found = {box, cost};
-    }
-    return found;
-  }
-
 private:
   // Points along the curve, from its end on.
   std::vector<Point> spread(const std::vector<Point>& curve) const {
@@ -69,7 +58,7 @@ Occupied around(const ChartPicture& picture, const ChartAxes& axes, const Series
   return out;
 }
 
-// Beside its curve, there upright where level texts have no place, else on it; nothing of a curve that is not seen.
+// Beside its curve, upright where level texts have no place.
 std::optional<PlotText> name_beside(const ChartPicture& picture, const ChartAxes& axes, const SeriesPicture& s, const Occupied& occupied) {
   const double em = axes.left.em;
   const Occupied others = around(picture, axes, s);
@@ -84,8 +73,6 @@ std::optional<PlotText> name_beside(const ChartPicture& picture, const ChartAxes
   for (const auto& line : lines) take(places.best(line, size[0]), false);
   if (best.cost == INFINITY)
     for (const auto& line : lines) take(places.best(line, size[1]), true);
-  if (best.cost == INFINITY)
-    for (const auto& line : lines) take(places.on(line, size[0]), false);
   if (best.cost == INFINITY) return std::nullopt;
   return PlotText{s.name, best.box, reference_grey, upright};
 }
@@ -109,7 +96,7 @@ PlotText note_near(const ChartNote& note, const ChartAxes& axes, const Occupied&
 
 }  // namespace
 
-std::vector<PlotText> plot_texts(const ChartPicture& picture, const ChartAxes& axes, Occupied& occupied) {
+std::vector<PlotText> plot_texts(const ChartPicture& picture, const ChartAxes& axes, Occupied& occupied, SeriesSet& crowded) {
   std::vector<PlotText> out;
   const auto add = [&](PlotText text) {
     occupied.add(text.box);
@@ -118,9 +105,11 @@ std::vector<PlotText> plot_texts(const ChartPicture& picture, const ChartAxes& a
   };
   for (const ChartNote& note : picture.notes) add(note_near(note, axes, occupied));
   if (!names_beside(picture)) return out;
-  for (const SeriesPicture& s : picture.series)
-    if (s.reference && !s.name.empty())
-      if (auto text = name_beside(picture, axes, s, occupied)) add(std::move(*text));
+  for (const SeriesPicture& s : picture.series) {
+    if (!s.reference || s.name.empty() || crowded.contains(&s)) continue;
+    if (auto text = name_beside(picture, axes, s, occupied)) add(std::move(*text));
+    else crowded.insert(&s);
+  }
   return out;
 }
 
