@@ -6,49 +6,38 @@ namespace dotyk::figure {
 
 namespace {
 
-struct Candidate {
-  Box box;
-  double cost = INFINITY;
-};
+// Half-extents of a block to either side of its point.
+constexpr std::array aside{0.0, 1.0, -1.0, 0.5, -0.5};
 
-// Where texts may stand around points of a curve: at their corners and sides, within the room.
-class BesideCurve {
-public:
-  BesideCurve(const Occupied& all, const Occupied& others, const Box& room, double em) : all_(all), others_(others), room_(room), em_(em) {}
+// The block of this size beside a point, so many pixels from it.
+Box beside(Point p, double across, double up, Point size, double gap) {
+  const double away = size.x / 2 + (std::abs(across) == 1 ? gap : 0);
+  return Box::about(p + Point{across * away, up * (size.y / 2 + gap)}, size);
+}
 
-  // The free place of least cost: near the curve, far from other curves.
-  Candidate best(const std::vector<Point>& curve, Point size) const {
-    Candidate found;
-    const double gap = 0.3 * em_;
-    for (const Point& p : spread(curve))
-      for (const double across : {0.0, 1.0, -1.0})
-        for (const double up : {1.0, -1.0, 0.0}) {
-          const Box box = Box::about(p + Point{across * (size.x / 2 + gap), up * (size.y / 2 + gap)}, size);
-          if ((across == 0 && up == 0) || !room_.holds({box.left, box.bottom}, -gap) || !room_.holds({box.right, box.top}, -gap)) continue;
-          if (all_.distance(box) < 0.8 * gap) continue;
-          const double cost = 3 * em_ - std::min(3 * em_, others_.distance(box));
-          if (cost < found.cost) found = {box, cost};
-        }
-    return found;
+// The box moved into the room, level or upright.
+Box within(const Box& box, const Box& room, double margin, bool level) {
+  const auto shift = [margin](double low, double high, double least, double most) {
+    return low < least + margin ? least + margin - low : std::min(0.0, most - margin - high);
+  };
+  return box.moved(level ? Point{shift(box.left, box.right, room.left, room.right), 0} : Point{0, shift(box.bottom, box.top, room.bottom, room.top)});
+}
+
+bool free(const Box& box, const Occupied& occupied, const Box& room, double gap) {
+  return room.holds({box.left, box.bottom}, -gap) && room.holds({box.right, box.top}, -gap) && occupied.distance(box) >= gap;
+}
+
+// Points along the part of a curve in the room, from its end on.
+std::vector<Point> spread(const std::vector<Point>& curve, const Box& room, double spacing) {
+  std::vector<Point> out;
+  for (std::size_t i = curve.size(); i-- > 1;) {
+    Point p = curve[i], q = curve[i - 1];
+    if (!crop(p, q, room)) continue;
+    const int n = 1 + static_cast<int>(length(q - p) / spacing);
+    for (int k = 0; k <= n; ++k) out.push_back(part_way(p, q, static_cast<double>(k) / n));
   }
-
-private:
-  // Points along the curve, from its end on.
-  std::vector<Point> spread(const std::vector<Point>& curve) const {
-    std::vector<Point> out;
-    for (std::size_t i = curve.size(); i-- > 1;) {
-      Point p = curve[i], q = curve[i - 1];
-      if (!crop(p, q, room_)) continue;
-      const int n = 1 + static_cast<int>(length(q - p) / (0.4 * em_));
-      for (int k = 0; k <= n; ++k) out.push_back(part_way(p, q, static_cast<double>(k) / n));
-    }
-    return out;
-  }
-
-  const Occupied &all_, &others_;
-  const Box& room_;
-  double em_;
-};
+  return out;
+}
 
 Occupied around(const ChartPicture& picture, const ChartAxes& axes, const SeriesPicture& but) {
   Occupied out;
@@ -58,40 +47,69 @@ Occupied around(const ChartPicture& picture, const ChartAxes& axes, const Series
   return out;
 }
 
-// Beside its curve, upright where level texts have no place.
-std::optional<PlotText> name_beside(const ChartPicture& picture, const ChartAxes& axes, const SeriesPicture& s, const Occupied& occupied) {
-  const double em = axes.left.em;
-  const Occupied others = around(picture, axes, s);
-  const BesideCurve places(occupied, others, axes.left.room, em);
-  const Point level = text_extent(s.name, small_text * em), size[] = {level, {level.y, level.x}};
-  Candidate best;
-  bool upright = false;
-  const auto take = [&](const Candidate& found, bool turned) {
-    if (found.cost < best.cost) best = found, upright = turned;
-  };
-  const auto lines = curves(s.x, s.y, axes.of(s));
-  for (const auto& line : lines) take(places.best(line, size[0]), false);
-  if (best.cost == INFINITY)
-    for (const auto& line : lines) take(places.best(line, size[1]), true);
-  if (best.cost == INFINITY) return std::nullopt;
-  return PlotText{s.name, best.box, reference_grey, upright};
+// Where a text of this size stands beside a curve, as far from others as can be.
+std::optional<Box> place_along(const std::vector<std::vector<Point>>& lines, const Occupied& all, const Occupied& others, const Axes& axes, Point size) {
+  const double gap = 0.3 * axes.em, far = 3 * axes.em;
+  std::optional<Box> found;
+  double most = -1;
+  for (const auto& line : lines)
+    for (const Point& p : spread(line, axes.room, 0.4 * axes.em))
+      for (const double across : aside)
+        for (const double up : {1.0, -1.0, 0.0}) {
+          if (up == 0 && std::abs(across) < 1) continue;
+          const Box box = beside(p, across, up, size, gap);
+          if (!free(box, all, axes.room, 0.8 * gap)) continue;
+          const double away = std::min(far, others.distance(box));
+          if (away > most) most = away, found = box;
+        }
+  return found;
 }
 
+// Beside its curve, upright where level texts have no place.
+std::optional<PlotText> name_beside(const ChartPicture& picture, const ChartAxes& axes, const SeriesPicture& s, const Occupied& occupied) {
+  const Occupied others = around(picture, axes, s);
+  const Axes& own = axes.of(s);
+  const double size = small_text * own.em;
+  const Point level = text_extent(s.name, size);
+  const auto lines = curves(s.x, s.y, own);
+  for (const bool upright : {false, true})
+    if (const auto box = place_along(lines, occupied, others, own, upright ? Point{level.y, level.x} : level)) return PlotText{{size, {s.name}}, *box, reference_grey, upright};
+  return std::nullopt;
+}
+
+// In one line, and broken at the space nearest to its middle.
+std::vector<FittedText> ways_to_write(const std::string& text, double size) {
+  std::vector<FittedText> out{{size, {text}}};
+  const std::size_t before = text.rfind(' ', text.size() / 2), after = text.find(' ', text.size() / 2);
+  const std::size_t space = before == std::string::npos || (after != std::string::npos && after + before < text.size()) ? after : before;
+  if (space != std::string::npos && space > 0) out.push_back({size, {text.substr(0, space), text.substr(space + 1)}});
+  return out;
+}
+
+Point extent_of(const FittedText& text) {
+  Point out{0, text_extent(text.lines[0], text.size).y + text.depth()};
+  for (const std::string& line : text.lines) out.x = std::max(out.x, text_extent(line, text.size).x);
+  return out;
+}
+
+// As near to its point as can be, but not upon a marker there.
 PlotText note_near(const ChartNote& note, const ChartAxes& axes, const Occupied& occupied) {
-  const double em = axes.left.em;
-  const Box& room = axes.left.room;
-  const Point at = axes.left.at(note.x, note.y), size = text_extent(note.text, small_text * em);
-  // Not upon the marker that is meant.
-  Occupied all = occupied;
-  all.add(Box::about(at, {1.4 * em, 1.4 * em}));
-  std::optional<Point> place;
-  for (const double margin : {0.5 * em, 0.25 * em, 0.1 * em})
-    if (!place) place = place_beside(all, room, at, size, margin);
-  const Box box = Box::about(place.value_or(at + Point{0, 1.5 * em}), size);
-  const Point end{std::clamp(at.x, box.left, box.right), std::clamp(at.y, box.bottom, box.top)}, way = end - at;
-  const double away = 0.35 * em;
-  if (!(length(way) > 2 * away)) return {note.text, box, axes_ink};
-  return {note.text, box, axes_ink, false, std::array{at + away / length(way) * way, end - 0.1 * em / length(way) * way}};
+  constexpr double kNearest = 0.7, kFarthest = 10, kMargin = 0.25;  // em
+  const double em = axes.left.em, from = 0.35 * em;
+  const Point at = axes.left.at(note.x, note.y);
+  const std::vector<FittedText> ways = ways_to_write(note.text, small_text * em);
+  const auto written = [&](const FittedText& text, const Box& box) {
+    const Point end{std::clamp(at.x, box.left, box.right), std::clamp(at.y, box.bottom, box.top)}, way = end - at;
+    return PlotText{text, box, axes_ink, false, std::array{at + from / std::max(from, length(way)) * way, end}};
+  };
+  for (double gap = kNearest * em; gap < kFarthest * em; gap += 0.3 * em)
+    for (const FittedText& text : ways)
+      for (const double across : aside)
+        for (const double up : {1.0, -1.0, 0.0}) {
+          const Box box = within(beside(at, across, up, extent_of(text), gap), axes.left.room, kMargin * em, up != 0);
+          if ((up != 0 || std::abs(across) == 1) && free(box, occupied, axes.left.room, kMargin * em)) return written(text, box);
+        }
+  return written(ways.back(), within(beside(at, 0, 1, extent_of(ways.back()), kNearest * em), axes.left.room, kMargin * em, true));
 }
 
 }  // namespace
@@ -116,7 +134,8 @@ std::vector<PlotText> plot_texts(const ChartPicture& picture, const ChartAxes& a
 void draw(Canvas& canvas, const PlotText& text, double em) {
   if (text.leader) canvas.line((*text.leader)[0], (*text.leader)[1], std::max(1.0, em / 20), text.colour);
   canvas.box(text.box, {255, 255, 255}, 0.85);
-  canvas.text(text.box.centre(), text.text, {.size = small_text * em, .across = Align::middle, .up = Align::middle, .upright = text.upright, .colour = text.colour});
+  const Point first = text.box.centre() + Point{0, text.words.depth() / 2};
+  canvas.text(first, text.words, {.across = Align::middle, .up = Align::middle, .upright = text.upright, .colour = text.colour});
 }
 
 }  // namespace dotyk::figure

@@ -8,7 +8,7 @@
 namespace dotyk::figure {
 
 struct PlotText {
-  std::string text;
+  FittedText words;
   Box box;
   Colour colour;
   bool upright = false;
