@@ -114,7 +114,7 @@ std::vector<Point> SeriesDrawing::marked(const SeriesPicture& s) const {
 
 // Of points alone one that lies beneath later ones is larger; of curves the lines tell.
 void SeriesDrawing::draw_markers() {
-  constexpr std::ptrdiff_t kDeepest = 2;
+  constexpr std::ptrdiff_t kDeepest = 3;
   const double near = 0.75 * pen_.line_width(), rim = 0.1 * pen_.em;
   const Box room = axes_.left.room.grown(1);
   std::vector<std::vector<Point>> places;
