@@ -146,13 +146,15 @@ void draw_guide(Canvas& canvas, const ChartPicture& picture, const SlopeGuide& g
   const bool plain = guide.label.empty(), rises = ratio >= 0;
   const std::string label = plain ? number(guide.slope) : guide.label;
   const Point extent = text_extent(label, size);
-  for (const double share : {0.16, 0.11, 0.07}) {
+  const Occupied own = like(picture, ratio, axes, occupied);
+  // Rather small beside its curve than large elsewhere.
+  for (const auto& [share, farthest] : {std::pair{0.16, 2.5}, {0.11, 2.5}, {0.07, 2.5}, {0.16, INFINITY}, {0.11, INFINITY}, {0.07, INFINITY}}) {
     double run = share * axes.room.width();
     if (std::abs(ratio) * run > 1.6 * share * axes.room.height()) run = 1.6 * share * axes.room.height() / std::abs(ratio);
     // With room for the labels on the right, and on the level side: below where the line rises, else above.
     const double up = std::abs(ratio * run), width = run + extent.x + 2 * pad, height = up + 1.2 * em + pad;
-    const std::optional<Point> place = near_place(occupied, like(picture, ratio, axes, occupied), axes.room, {width, height}, 0.5 * em);
-    if (!place) continue;
+    const std::optional<Point> place = near_place(occupied, own, axes.room, {width, height}, 0.5 * em);
+    if (!place || own.distance({place->x, place->y, place->x + width, place->y + height}) > farthest * em) continue;
     const Point at = *place;
     occupied.add(Box{at.x, at.y, at.x + width, at.y + height});
     const double low = at.y + (rises ? 1.2 * em : pad);
