@@ -11,4 +11,4 @@ local punch = dotyk.rigid.gap{ normal = {0,1}, gap = function(x) return x^2/4 - 
 local contact = scene:contact{ block:part"top", rigid = punch }
 local s = dotyk.solve(scene)
 print(s, s:contact(contact).max_pressure)
-s:render{ file = "images/first.png", field = "von_mises", supports = true, unit = "MPa" }
+s:render{ file = "images/first.png", field = "von_mises", supports = true, units = { length = "mm", stress = "MPa" } }

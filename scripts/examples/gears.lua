@@ -101,5 +101,5 @@ for _, angle in ipairs{ 1e-3, 2e-3 } do
 end
 
 -- 4. The figure.
-last:render{ file = "images/gears.png", field = "von_mises", unit = "MPa", deform = 4, window = { -35, 125, 60, 195 }, range = { 0, 700 } }
+last:render{ file = "images/gears.png", field = "von_mises", units = { length = "mm", stress = "MPa" }, deform = 4, window = { -30, 125, 60, 195 }, range = { 0, 700 }, pressure = "arrows" }
 print "images/gears.png"

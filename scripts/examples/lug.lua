@@ -83,5 +83,5 @@ if not arg[2] then
   end
 end
 
-last:render{ file = "images/lug.png", field = "von_mises", deform = 1, contact = true, size = { 1200, 640 } }
+last:render{ file = "images/lug.png", field = "von_mises", deform = 1, pressure = "arrows", units = { length = "mm", stress = "MPa" }, size = { 1200, 640 } }
 print "images/lug.png"

@@ -266,7 +266,7 @@ local again <const> = both:contact{ edge(shaped, 0), edge(under_shaped, 0) }
 local s <const> = dotyk.solve(both)
 -- Nodes within the body lie otherwise than the search moved them.
 assert(math.abs(judge(s, again, p0).peak - free.best.peak) < 1e-4, "the optimised roller, set up anew, is another one")
-s:render{ file = "images/roller_scene.png", field = "von_mises", unit = "MPa", window = { -1.6 * a, -1.3 * a, 1.6 * a, 0.8 * a }, range = { 0, 2000 },
+s:render{ file = "images/roller_scene.png", field = "von_mises", units = { length = "mm", stress = "MPa" }, window = { -1.6 * a, -1.3 * a, 1.6 * a, 0.8 * a }, range = { 0, 2000 },
           edges = false, title = "Straight on the left, optimised on the right" }
 
 local function pressures(r)

@@ -90,5 +90,5 @@ for _, joint in ipairs(joints) do
   for key in pairs(counts) do counts[key] = counts[key] + c[key] end
 end
 print(("%d bricks, %d joints: %d nodes open, %d stick, %d slip"):format(#bodies, #joints, counts.open, counts.stick, counts.slip))
-s:render{ file = "images/wall.png", field = "von_mises", deform = 300, contact = true, pressure = "none", size = { 1600, 1300 } }
+s:render{ file = "images/wall.png", field = "von_mises", deform = 300, contact = true, pressure = "none", units = { length = "m", stress = "Pa" }, size = { 1600, 1300 } }
 print "images/wall.png"

@@ -29,4 +29,4 @@ local E <const>, G <const>, I <const>, A <const> = 210e3, 210e3 / 2.6, 20^3 / 12
 print(("beam theory: %.4f mm"):format(100^4 / (8 * E * I) + 100^2 / (2 * 5 / 6 * G * A)))
 assert(math.abs(force - 100) < 1e-9)
 
-print("wrote", s:render{ file = "images/tutorial_01.png", deform = "auto", supports = true, loads = true, unit = "MPa", title = "A bracket under its load" })
+print("wrote", s:render{ file = "images/tutorial_01.png", deform = "auto", supports = true, loads = true, units = { length = "mm", stress = "MPa" }, title = "A bracket under its load" })

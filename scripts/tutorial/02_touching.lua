@@ -25,9 +25,9 @@ end
 -- What acts on the block is what its support gives back.
 local _, reaction <const> = s:reaction(block:part"bottom")
 assert(math.abs(reaction + c.force[2]) < 1e-8 * math.abs(reaction))
-print("wrote", s:render{ file = "images/tutorial_02.png", unit = "MPa", title = "A parabola pressed into a block" })
+print("wrote", s:render{ file = "images/tutorial_02.png", units = { length = "mm", stress = "MPa" }, title = "A parabola pressed into a block" })
 -- For a column of a journal, 85 mm wide: lines and texts of a PDF (or SVG) stay sharp.
-print("wrote", s:render{ file = "images/tutorial_02.pdf", width = 85, unit = "MPa" })
+print("wrote", s:render{ file = "images/tutorial_02.pdf", width = 85, units = { length = "mm", stress = "MPa" } })
 local file <const> = os.tmpname()
 s:write_contact(file) -- the same as a table, for other programs
 print("the first line of the table: " .. io.lines(file)())

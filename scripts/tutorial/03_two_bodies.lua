@@ -29,4 +29,4 @@ upper:part"top":load{ 0, 1 }
 local ok <const>, why <const> = pcall(dotyk.solve, scene)
 assert(not ok)
 print("pulled up:", why)
-print("wrote", s:render{ file = "images/tutorial_03.png", title = "A steel block on rubber, loaded on its left half", unit = "MPa", deform = 1 })
+print("wrote", s:render{ file = "images/tutorial_03.png", title = "A steel block on rubber, loaded on its left half", units = { length = "mm", stress = "MPa" }, deform = 1 })

@@ -184,6 +184,16 @@ Point mixed_normal_derivative(const Point& n1, const Point& d1, const Point& inw
   return unit_derivative(mesh::plus(mean, apply(mix, d)), mesh::plus(dmean, apply(mix, dd)));
 }
 
+namespace {
+
+/// With singular values of at most 1. Where directions of curvature differ by a small angle φ, (K₂ − K₁)(K₁ + K₂)⁻¹ has entries of
+/// 1/φ: the point where normals agree lies far outside of what curvatures tell. So limited, n is no farther from the mean than n₁ and −n₂.
+Small shortening(const Small& m) {
+  return m * of_eigenvalues(m.transpose() * m, [](double v) { return v > 1 ? 1 / std::sqrt(v) : 1; });
+}
+
+}  // namespace
+
 Frame frame_between(const Point& n1, const Eigen::Matrix3d& K1, const Point& inward, const Eigen::Matrix3d& K2, double flat, int dimension) {
   const auto T = basis(mesh::unit(mesh::plus(n1, inward)), dimension);
   const auto sized = [&](const Eigen::Matrix3d& K) {
@@ -194,7 +204,7 @@ Frame frame_between(const Point& n1, const Eigen::Matrix3d& K1, const Point& inw
   if (a.isZero(0) != b.isZero(0)) {  // not by M, which the directions of a fitted K turn a little askew
     frame.mix = a.isZero(0) ? kFirstDecides : kSecondDecides;
   } else {
-    const Eigen::Matrix3d M = T * ((b - a) * of_eigenvalues(a + b, [&](double v) { return v < flat ? 0 : 1 / v; })) * T.transpose();
+    const Eigen::Matrix3d M = T * shortening((b - a) * of_eigenvalues(a + b, [&](double v) { return v < flat ? 0 : 1 / v; })) * T.transpose();
     for (int i = 0; i < 3; ++i)
       for (int k = 0; k < 3; ++k) frame.mix[i][k] = M(i, k);
   }

@@ -20,7 +20,8 @@ namespace dotyk::contact {
 /// would be held by what rounding leaves. Where both are 0, M = 0.
 /// M is no continuous function of the curvatures at 0. So it is made when the contact is, like pairs of nodes, and stays when nodes move:
 /// rows then depend smoothly on the nodes. Of flat parts it is made when one of them moves, see mix_of_moving(). It differs from M made anew
-/// where the ratio of two curvatures changes: normals then differ by |ΔM d|.
+/// where the ratio of two curvatures changes: normals then differ by |ΔM d|. No singular value of M is greater than 1: directions of curvature
+/// that differ by a small angle φ would give 1/φ, for a point where normals agree that lies far off.
 ///
 /// Against a rigid ball likewise, see rigid.hpp: n₂ and K₂ are then the shape's own.
 struct Frame {

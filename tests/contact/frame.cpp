@@ -161,3 +161,19 @@ TEST_CASE("the part that is coarser where the parts are nearest has the rows, wh
         }
       }
 }
+
+TEST_CASE("two cylinders almost along each other: the normal is no farther from the mean than theirs") {
+  // Axes along y, the second turned by φ and tilted by t: the normals of both at the line of contact differ by t along y.
+  for (const double angle : {1e-4, 3e-3, 1e-2, 0.1, 0.5, 1.5})
+    for (const double tilt : {1e-3, 1e-2}) {
+      CAPTURE(angle);
+      CAPTURE(tilt);
+      const Eigen::Vector3d one{1, 0, 0}, two{std::cos(angle), std::sin(angle), 0};
+      const Eigen::Matrix3d K1 = one * one.transpose() / 10, K2 = two * two.transpose() / 20;
+      const Point n1{0, 0, 1}, n2 = mesh::unit({0, -tilt, 1}), mean = mesh::unit(mesh::plus(n1, n2));
+      const contact::Frame frame = contact::frame_between(n1, K1, n2, K2, 1e-9, 3);
+      const double half = mesh::length(mesh::minus(mesh::times(1 / mesh::dot(n1, mean), n1), mean));
+      CHECK(mesh::length(mesh::minus(frame.normal, mean)) <= half * (1 + 1e-12));
+      CHECK(mesh::length(mesh::minus(contact::frame_between(n2, K2, n1, K1, 1e-9, 3).normal, frame.normal)) < 1e-15);
+    }
+}

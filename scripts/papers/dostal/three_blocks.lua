@@ -108,7 +108,9 @@ for _, M in ipairs{ 0.01, 0.1 } do
 end
 
 -- 4. Contact forces and status above the excavation.
-tight:render{ file = "images/three_blocks.png", field = "uz", deform = "auto", contact = true, size = { 1400, 1000 } }
+local pictures = { tight:picture{ field = "pressure", explode = 0.35, units = { length = "m", stress = "Pa" }, title = "Blocks drawn apart" } }
+for k, c in ipairs(contacts) do pictures[k + 1] = tight:picture{ map = c, units = { length = "m", stress = "Pa" }, title = ("Joint %d"):format(k) } end
+dotyk.pictures{ file = "images/three_blocks.png", columns = 2, table.unpack(pictures) }
 local forces = {}
 for k, c in ipairs(contacts) do
   local r <const> = tight:contact(c)

@@ -181,7 +181,7 @@ dotyk.chart{ file = "images/cattaneo_mindlin.png", x = "x [mm]", y = "traction [
   { name = "shear, nodes", x = at, y = shear, style = "points" },
   { name = "Hertz, Cattaneo and Mindlin", x = px, y = pe, reference = true },
   { x = qx, y = qe, reference = true } } }
-solve(coarse):render{ file = "images/cattaneo_mindlin_zones.png", field = "xy", unit = "MPa", edges = false, window = { -2.2, -1.6, 2.2, 1.6 } }
+solve(coarse):render{ file = "images/cattaneo_mindlin_zones.png", field = "xy", units = { length = "mm", stress = "MPa" }, edges = false, window = { -2.2, -1.6, 2.2, 1.6 } }
 local function curve(from, to, turn)
   local x, y = {}, {}
   for k = 0, 100 do

@@ -50,7 +50,7 @@ print(("observed order: peak pressure %.2f, half-width %.2f, pressure in L2 %.2f
 print(s)
 
 -- 3. Figures.
-s:render{ file = "images/hertz.png", field = "von_mises", window = {-5, -2, 5, 5}, unit = "MPa" }
+s:render{ file = "images/hertz.png", field = "von_mises", window = {-5, -2, 5, 5}, units = { length = "mm", stress = "MPa" } }
 local x, p, hx, hp = {}, {}, {}, {}
 for _, node in ipairs(result.nodes) do
   if math.abs(node.x) < 1.6 * result.a then

@@ -122,7 +122,7 @@ dotyk.chart{ file = "images/mortar.png", size = {1000, 1250}, panels = {
     series = { { name = "matching nodes", x = chart.x, y = chart.matching }, { name = "mortar, 5:7", x = chart.x, y = chart.mortar },
                { name = "node to segment, 5:7", x = chart.x, y = chart.feet } } } } }
 local scene <const> = hertz.scene(40, 56, "mortar", "Q1", 0.2)
-dotyk.solve(scene):render{ file = "images/mortar_hertz.png", field = "von_mises", unit = "MPa", deform = 1, edges = true, window = {0, -7, 9, 4} }
+dotyk.solve(scene):render{ file = "images/mortar_hertz.png", field = "von_mises", units = { length = "mm", stress = "MPa" }, deform = 1, edges = true, window = {0, -7, 9, 4} }
 print "\nimages/mortar.png, images/mortar_hertz.png"
 print(passed and "mortar passes the patch test, and is as accurate as matching nodes" or "FAILED")
 if not passed then os.exit(1) end

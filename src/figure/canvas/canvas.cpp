@@ -134,7 +134,7 @@ void Canvas::crossed_marker(Marker kind, Point c, double size, Colour colour) {
 void Canvas::arrow(Point tail, Point head, double width, double head_length, Colour colour, double rim) {
   const double size = length(head - tail);
   if (!(size > 0)) return;
-  const double tip = std::min(head_length, 0.7 * size), half = 0.38 * tip;
+  const double tip = std::min(head_length, 0.6 * size), half = 0.38 * tip;
   const Point d{(head.x - tail.x) / size, (head.y - tail.y) / size}, across{-d.y, d.x}, neck = head - tip * d;
   if (rim > 0) {
     const Colour white{255, 255, 255};

@@ -45,7 +45,7 @@ struct FittedText {
   double depth() const;  // from the first line to the last
 };
 
-// In one line of letters down to least_letters of `size`; else in two lines of these, broken between words, the second
+// In one line of letters down to least_letters of `size`; else in up to three lines of these, broken between words, the last
 // shortened where that does not suffice either. `end` stays whatever is left out before it.
 FittedText fitted(const std::string& text, double size, double pixels, bool bold = false, const std::string& end = "");
 

@@ -121,13 +121,18 @@ std::string shortened(const std::string& text, double size, double pixels, bool 
 }
 
 FittedText fitted(const std::string& text, double size, double pixels, bool bold, const std::string& end) {
-  const double smaller = fitting_size(text + end, size, pixels, bold);
-  if (text_extent(text + end, smaller, bold).x <= pixels + 1e-6 * size) return {smaller, {text + end}};
-  std::string first = beginning(text, "", smaller, pixels, bold);
-  const std::size_t space = text.find_last_of(" \n", first.size());
-  if (space != std::string::npos && space > 0) first.resize(space);
-  const std::size_t rest = std::min(text.find_first_not_of(" \n", first.size()), text.size());
-  return {smaller, {first, shortened(text.substr(rest), smaller, pixels - text_extent(end, smaller, bold).x, bold) + end}};
+  constexpr std::size_t kLines = 3;
+  FittedText out{fitting_size(text + end, size, pixels, bold), {}};
+  std::string rest = text;
+  while (text_extent(rest + end, out.size, bold).x > pixels + 1e-6 * size && out.lines.size() + 1 < kLines) {
+    std::string line = beginning(rest, "", out.size, pixels, bold);
+    const std::size_t space = rest.find_last_of(" \n", line.size());
+    if (space != std::string::npos && space > 0) line.resize(space);
+    out.lines.push_back(line);
+    rest.erase(0, std::min(rest.find_first_not_of(" \n", line.size()), rest.size()));
+  }
+  out.lines.push_back(shortened(rest, out.size, pixels - text_extent(end, out.size, bold).x, bold) + end);
+  return out;
 }
 
 TextStyle title_style() { return {.across = Align::middle, .up = Align::high, .bold = true}; }

@@ -1,5 +1,7 @@
 #include "figure/canvas/colour_map.hpp"
 
+#include <iterator>
+
 #include "figure/canvas/axes.hpp"
 
 namespace dotyk::figure {
@@ -35,7 +37,15 @@ Ticks bar_ticks(const ColourScale& scale) { return few_ticks(scale.low, scale.hi
 
 constexpr double bar = 1.0, tick = 0.25, pad = 0.35, small_label = 0.85, ends = 0.55, tip = 0.9;  // in em
 
-// At the nodes that are seen.
+// Values that are not at nodes of bodies.
+std::vector<const std::vector<double>*> fields_beside(const ScenePicture& p) {
+  std::vector<const std::vector<double>*> out;
+  for (const BodyPicture& body : p.bodies) out.push_back(&body.cell_values);
+  for (const ContactPicture& contact : p.contacts) out.push_back(&contact.values);
+  return out;
+}
+
+// At the nodes that are seen, and beside them.
 std::vector<double> values_of(const ScenePicture& p, const std::optional<Box>& window) {
   std::vector<double> out;
   for (const BodyPicture& body : p.bodies)
@@ -43,6 +53,8 @@ std::vector<double> values_of(const ScenePicture& p, const std::optional<Box>& w
       const Vec3 at = body.node(i, p.deformation);
       if (std::isfinite(body.values[i]) && (!window || window->holds({at[0], at[1]}))) out.push_back(body.values[i]);
     }
+  for (const auto* values : fields_beside(p))
+    std::ranges::copy_if(*values, std::back_inserter(out), [](double v) { return std::isfinite(v); });
   return out;
 }
 
@@ -78,15 +90,23 @@ Colour ColourScale::at(double value) const {
 ColourScale colour_scale(const ScenePicture& p, const std::optional<Box>& window) {
   ColourScale scale;
   Seen part;
-  if (window) part = seen(p, *window);
-  else
+  if (window && p.bodies.front().dimension == 2) {
+    part = seen(p, *window);
+  } else {
     for (const BodyPicture& body : p.bodies)
       for (const double v : body.values) part.add(v);
+    for (const auto* values : fields_beside(p))
+      for (const double v : *values) part.add(v);
+  }
   scale.shown = part.least <= part.greatest;
   if (!scale.shown) return scale;
+  constexpr double kRounding = 1e-12;
+  if (std::abs(part.least) < kRounding * part.greatest) part.least = 0;
   scale.least = scale.low = part.least, scale.greatest = scale.high = part.greatest;
   if (p.field_range) scale.low = (*p.field_range)[0], scale.high = (*p.field_range)[1];
   else leave_out_peaks(scale, values_of(p, window));
+  constexpr double kNearZero = 0.2;
+  if (!p.field_range && !p.field_signed && scale.low > 0 && scale.low < kNearZero * scale.high) scale.low = 0;
   // A field without sign may dip below zero by rounding, or by recovery.
   const double lesser = std::min(-scale.low, scale.high), greater = std::max(-scale.low, scale.high);
   scale.diverging = p.field_signed || lesser > 0.02 * greater;
@@ -119,14 +139,15 @@ double colour_bar_width(const ColourScale& scale, const FieldLabel& field, doubl
   return std::max({beside, above("max", scale.greatest), above("min", scale.least)});
 }
 
-void draw_colour_bar(Canvas& canvas, const ColourScale& scale, const FieldLabel& field, double em, double left, double bottom, double top, double picture_width) {
-  if (!scale.shown || field.name.empty()) return;
+void draw_colour_bar(Canvas& canvas, const ColourScale& scale, const FieldLabel& field, double em, const Box& room) {
+  const double left = room.left, bottom = room.bottom;
+  double top = room.top;
   const Ticks ticks = bar_ticks(scale);
   // The name stands beside the bar, above it where that is too short.
   const std::string name = label(field, ticks.exponent);
   const bool upright = text_extent(name, least_letters * em).x <= top - bottom - 2 * (ends + 1.0) * em;
   if (!upright) {
-    const FittedText lines = fitted(name, em, picture_width - 0.3 * em - left);
+    const FittedText lines = fitted(name, em, room.width());
     canvas.text({left, top}, lines, {.up = Align::high});
     top -= lines.depth() + 1.3 * em;
   }
@@ -146,7 +167,7 @@ void draw_colour_bar(Canvas& canvas, const ColourScale& scale, const FieldLabel&
     canvas.polyline(corners, std::max(1.0, em / 22), {60, 60, 60}, {}, true);
   }
   double below = -1e300;
-  for (const Tick& t : few_ticks(scale.low, scale.high, std::min(5.0, box.height() / (2.6 * em))).ticks) {
+  for (const Tick& t : few_ticks(scale.low, scale.high, std::min(5.0, box.height() / (1.3 * em))).ticks) {
     const double y = box.bottom + box.height() * (t.value - scale.low) / (scale.high - scale.low);
     if (t.label.empty() || y - below < 1.1 * em) continue;
     below = y;

@@ -26,14 +26,15 @@ ColourScale colour_scale(const ScenePicture& picture, const std::optional<Box>& 
 
 vtkSmartPointer<vtkLookupTable> lookup_table(const ColourScale& scale);
 
+// What a bar of colours is of; without a name there is none.
 struct FieldLabel {
-  std::string name, unit;  // no name: no bar; the unit may be empty
+  std::string name, unit;
 };
+inline FieldLabel field_of(const ScenePicture& picture) { return {picture.field_label, picture.field_unit}; }
 
-// The upright bar with ticks, extremes and label, and a triangle on an end beyond
-// which the field goes on: its width, and its drawing with the left edge at
-// `left` between bottom and top.
-double colour_bar_width(const ColourScale& scale, const FieldLabel& label, double em);
-void draw_colour_bar(Canvas& canvas, const ColourScale& scale, const FieldLabel& label, double em, double left, double bottom, double top, double picture_width);
+// The upright bar with ticks, extremes and label, and a triangle on an end beyond which the field goes on: its width, and its drawing
+// at the left of a room.
+double colour_bar_width(const ColourScale& scale, const FieldLabel& field, double em);
+void draw_colour_bar(Canvas& canvas, const ColourScale& scale, const FieldLabel& field, double em, const Box& room);
 
 }  // namespace dotyk::figure

@@ -30,11 +30,29 @@ struct View {
   Point direction(const Vec3& d) const;  // unit, or 0 where d points at the eye
 };
 
+// The parts of a polygon that are next to its corners, in the order of these: corner, middle of the next side, centre, middle of the last.
+template <class P>
+std::vector<std::array<P, 4>> quarters(const std::vector<P>& corner) {
+  const std::size_t n = corner.size();
+  P centre = corner[0];
+  for (std::size_t k = 1; k < n; ++k) centre = part_way(centre, corner[k], 1.0 / static_cast<double>(k + 1));
+  std::vector<std::array<P, 4>> out;
+  for (std::size_t k = 0; k < n; ++k) out.push_back({corner[k], part_way(corner[k], corner[(k + 1) % n], 0.5), centre, part_way(corner[k], corner[(k + n - 1) % n], 0.5)});
+  return out;
+}
+
 // Polygons of `each` corners.
 struct Facets {
   std::vector<int> nodes;
   int each = 2;
 };
+
+// Calls act with the nodes of each polygon.
+template <class Do>
+void each_polygon(const Facets& polygons, Do&& act) {
+  const auto each = static_cast<std::size_t>(polygons.each);
+  for (std::size_t f = 0; f + each <= polygons.nodes.size(); f += each) act(std::span(polygons.nodes).subspan(f, each));
+}
 
 // Every edge of the polygons once, two nodes an edge.
 std::vector<int> unique_edges(const Facets& polygons);

@@ -44,6 +44,7 @@ private:
 
   void paint(const Mark& mark) {
     ink(mark.colour, mark.opacity);
+    cairo_new_path(cr_);
     if (mark.kind == Mark::Kind::disc) {
       cairo_arc(cr_, mark.points[0].x, height_ - mark.points[0].y, mark.width, 0, 2 * std::numbers::pi);
       return cairo_fill(cr_);
@@ -108,15 +109,15 @@ std::string png(cairo_surface_t* surface, const Sheet& sheet) {
   return bytes;
 }
 
-// The mean of each block of pixels that is one of the sheet.
-Image reduced(const Image& fine, const Sheet& sheet) {
-  const int factor = fine.width / sheet.width;
+// The mean of each block of pixels that is one of the sheet, where it covers so many of these across.
+Image reduced(const Image& fine, int width) {
+  const int factor = fine.width / width, height = fine.height / factor;
   if (factor == 1) return fine;
-  const auto n = static_cast<std::size_t>(sheet.width);
-  Image out{sheet.width, sheet.height, std::vector<unsigned char>(4 * n * sheet.height)};
+  const auto n = static_cast<std::size_t>(width);
+  Image out{width, height, std::vector<unsigned char>(4 * n * height)};
   std::vector<unsigned> sums(4 * n);
   const unsigned count = factor * factor;
-  for (int y = 0; y < sheet.height; ++y) {
+  for (int y = 0; y < height; ++y) {
     std::fill(sums.begin(), sums.end(), 0);
     for (int dy = 0; dy < factor; ++dy) {
       const unsigned char* row = &fine.rgba[4 * n * factor * (static_cast<std::size_t>(y) * factor + dy)];
@@ -129,32 +130,37 @@ Image reduced(const Image& fine, const Sheet& sheet) {
   return out;
 }
 
-void paint(cairo_t* cr, const Sheet& sheet, const Canvas& under, Image image, const Canvas& over) {
-  Painter painter(cr, sheet.height, !vector_graphics(sheet));
-  painter.paint(under);
-  if (!image.rgba.empty()) {
-    const double shrunk = static_cast<double>(sheet.width) / image.width;
-    const Surface source = surface_of(image);
-    cairo_save(cr);
-    cairo_scale(cr, shrunk, shrunk);
-    cairo_set_source_surface(cr, source.get(), 0, 0);
-    cairo_paint(cr);
-    cairo_restore(cr);
+void paint(cairo_t* cr, const Sheet& sheet, const std::vector<Painted>& parts) {
+  const bool pixels = !vector_graphics(sheet);
+  Painter painter(cr, sheet.height, pixels);
+  for (const Painted& part : parts) {
+    painter.paint(part.under);
+    if (!part.image.rgba.empty()) {
+      Image image = pixels ? reduced(part.image, static_cast<int>(part.place.width())) : part.image;
+      const double shrunk = part.place.width() / image.width;
+      const Surface source = surface_of(image);
+      cairo_save(cr);
+      cairo_translate(cr, part.place.left, sheet.height - part.place.top);
+      cairo_scale(cr, shrunk, shrunk);
+      cairo_set_source_surface(cr, source.get(), 0, 0);
+      cairo_paint(cr);
+      cairo_restore(cr);
+    }
+    painter.paint(part.over);
   }
-  painter.paint(over);
 }
 
-std::string as_png(const Sheet& sheet, const Canvas& under, const Image& image, const Canvas& over) {
+std::string as_png(const Sheet& sheet, const std::vector<Painted>& parts) {
   const Surface surface = owned(cairo_image_surface_create(CAIRO_FORMAT_RGB24, sheet.width, sheet.height));
   const Context cr(cairo_create(surface.get()), cairo_destroy);
   cairo_set_source_rgb(cr.get(), 1, 1, 1);
   cairo_paint(cr.get());
-  paint(cr.get(), sheet, under, image.rgba.empty() ? image : reduced(image, sheet), over);
+  paint(cr.get(), sheet, parts);
   require(cairo_status(cr.get()), sheet);
   return png(surface.get(), sheet);
 }
 
-std::string as_pdf(const Sheet& sheet, const Canvas& under, const Image& image, const Canvas& over) {
+std::string as_pdf(const Sheet& sheet, const std::vector<Painted>& parts) {
   std::string bytes;
   {
     const double shrunk = points_per_pixel(sheet);
@@ -162,7 +168,7 @@ std::string as_pdf(const Sheet& sheet, const Canvas& under, const Image& image, 
     cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_CREATE_DATE, "2000-01-01T00:00:00");  // equal pictures give equal bytes
     const Context cr(cairo_create(surface.get()), cairo_destroy);
     cairo_scale(cr.get(), shrunk, shrunk);
-    paint(cr.get(), sheet, under, image, over);
+    paint(cr.get(), sheet, parts);
     cairo_show_page(cr.get());
     require(cairo_status(cr.get()), sheet);
     cairo_surface_finish(surface.get());
@@ -171,8 +177,8 @@ std::string as_pdf(const Sheet& sheet, const Canvas& under, const Image& image, 
   return bytes;
 }
 
-std::string as_svg(const Sheet& sheet, const Canvas& under, Image image, const Canvas& over) {
-  return svg(sheet, under, image.rgba.empty() ? "" : png(surface_of(image).get(), sheet), over);
+std::string as_svg(const Sheet& sheet, const std::vector<Painted>& parts) {
+  return svg(sheet, parts, [&](Image image) { return png(surface_of(image).get(), sheet); });
 }
 
 }  // namespace
@@ -185,12 +191,10 @@ int image_factor(const Sheet& sheet) {
   return std::clamp(static_cast<int>(std::ceil(kDots / kInch * points_per_pixel(sheet) - 0.05)), 1, most);
 }
 
-void write_picture(const Sheet& sheet, const Canvas& under, const Image& image, const Canvas& over) {
-  write_whole_file(sheet.file, sheet.file.ends_with(".pdf")   ? as_pdf(sheet, under, image, over)
-                               : sheet.file.ends_with(".svg") ? as_svg(sheet, under, image, over)
-                                                              : as_png(sheet, under, image, over));
+void write_picture(const Sheet& sheet, const std::vector<Painted>& parts) {
+  write_whole_file(sheet.file, sheet.file.ends_with(".pdf") ? as_pdf(sheet, parts) : sheet.file.ends_with(".svg") ? as_svg(sheet, parts) : as_png(sheet, parts));
 }
 
-void write_canvas(const Canvas& canvas, const Sheet& sheet) { write_picture(sheet, {}, {}, canvas); }
+void write_canvas(Canvas canvas, const Sheet& sheet) { write_picture(sheet, {{{}, {}, {}, std::move(canvas)}}); }
 
 }  // namespace dotyk::figure

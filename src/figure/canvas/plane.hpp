@@ -38,6 +38,12 @@ struct Box {
   bool overlaps(const Box& b) const { return left < b.right && b.left < right && bottom < b.top && b.bottom < top; }
 };
 
+// The box moved into the frame, as far as it goes.
+inline Box pushed(Box box, const Box& frame) {
+  box = box.moved({std::min(0.0, frame.right - box.right), std::min(0.0, frame.top - box.top)});
+  return box.moved({std::max(0.0, frame.left - box.left), std::max(0.0, frame.bottom - box.bottom)});
+}
+
 // The greatest size of the values; 0 of none.
 inline double greatest(std::span<const double> values) {
   double most = 0;

@@ -41,9 +41,9 @@ public:
     for (const Mark& mark : canvas.marks()) draw(mark);
     for (const PlacedText& text : canvas.texts()) draw(text);
   }
-  void draw(const Sheet& sheet, const std::string& png) {
-    if (!png.empty())
-      out_ << "<image width=\"" << sheet.width << "\" height=\"" << sheet.height << "\" href=\"data:image/png;base64," << base64(png) << "\"/>\n";
+  void draw(const Box& place, const std::string& png) {
+    out_ << "<image x=\"" << place.left << "\" y=\"" << height_ - place.top << "\" width=\"" << place.width() << "\" height=\"" << place.height()
+         << "\" href=\"data:image/png;base64," << base64(png) << "\"/>\n";
   }
   std::string finish() {
     out_ << "</svg>\n";
@@ -99,11 +99,13 @@ private:
 
 }  // namespace
 
-std::string svg(const Sheet& sheet, const Canvas& under, const std::string& png, const Canvas& over) {
+std::string svg(const Sheet& sheet, const std::vector<Painted>& parts, const std::function<std::string(const Image&)>& png) {
   Svg out(sheet);
-  out.draw(under);
-  out.draw(sheet, png);
-  out.draw(over);
+  for (const Painted& part : parts) {
+    out.draw(part.under);
+    if (!part.image.rgba.empty()) out.draw(part.place, png(part.image));
+    out.draw(part.over);
+  }
   return out.finish();
 }
 

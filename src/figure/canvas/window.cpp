@@ -27,12 +27,12 @@ double area(const Polygon& polygon) {
 }  // namespace
 
 std::vector<int> cells_near(const BodyPicture& body, double factor, const Box& w) {
-  const int each = nodes_per_cell(body.shape, 1);
+  const int each = nodes_per_cell(body.shape, 1), count = static_cast<int>(body.cells.size()) / each;
   std::vector<int> near;
-  for (auto cell = body.cells.begin(); body.cells.end() - cell >= each; cell += each) {
+  for (int c = 0; c < count; ++c) {
     Bounds bounds;
-    std::for_each(cell, cell + each, [&](int i) { bounds.add(corner(body, i, factor)); });
-    if (bounds.left <= w.right && bounds.right >= w.left && bounds.bottom <= w.top && bounds.top >= w.bottom) near.insert(near.end(), cell, cell + each);
+    for (int k = 0; k < each; ++k) bounds.add(corner(body, body.cells[static_cast<std::size_t>(c) * each + k], factor));
+    if (bounds.left <= w.right && bounds.right >= w.left && bounds.bottom <= w.top && bounds.top >= w.bottom) near.push_back(c);
   }
   return near;
 }
@@ -40,14 +40,14 @@ std::vector<int> cells_near(const BodyPicture& body, double factor, const Box& w
 Seen seen(const ScenePicture& picture, const Box& window) {
   Seen out;
   for (const BodyPicture& body : picture.bodies) {
-    const int each = nodes_per_cell(body.shape, 1);
-    const std::vector<int> cells = cells_near(body, picture.deformation, window);
-    for (std::size_t c = 0; c < cells.size(); c += each) {
+    const std::size_t each = nodes_per_cell(body.shape, 1);
+    for (const int c : cells_near(body, picture.deformation, window)) {
       Polygon polygon;
-      for (int k = 0; k < each; ++k) polygon.push_back(corner(body, cells[c + k], picture.deformation));
+      for (std::size_t k = 0; k < each; ++k) polygon.push_back(corner(body, body.cells[c * each + k], picture.deformation));
       const Polygon part = cropped(std::move(polygon), window);
       if (!(area(part) > 0)) continue;
       out.body = true;
+      if (!body.cell_values.empty()) out.add(body.cell_values[c]);
       if (body.values.empty()) continue;
       for (const Corner& p : part) out.add(p.value);
     }

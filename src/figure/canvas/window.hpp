@@ -14,8 +14,7 @@ namespace dotyk::figure {
 using Window = std::array<double, 4>;
 inline Box box_of(const Window& window) { return {window[0], window[1], window[2], window[3]}; }
 
-// Nodes of those cells of a body, displaced by `factor`, whose boxes meet the
-// window, flat as in BodyPicture::cells.
+// The cells of a body, displaced by `factor`, whose boxes meet the window.
 std::vector<int> cells_near(const BodyPicture& body, double factor, const Box& window);
 
 // What the window shows of the bodies. Values are interpolated to its border,

@@ -7,7 +7,9 @@ namespace {
 constexpr double between = 0.5;  // em, from a name to the next
 
 bool whole(const FittedText& text, const std::string& name) {
-  return (text.lines.size() == 1 ? text.lines[0] : text.lines[0] + " " + text.lines[1]) == name;
+  std::string all;
+  for (const std::string& line : text.lines) all += (all.empty() ? "" : " ") + line;
+  return all == name;
 }
 
 }  // namespace

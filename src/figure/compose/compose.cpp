@@ -4,7 +4,8 @@
 #include <cmath>
 
 #include "base/error.hpp"
-#include "figure/canvas/plane.hpp"
+#include "figure/canvas/geometry.hpp"
+#include "figure/scene/contact_map.hpp"
 #include "mesh/second_order.hpp"
 #include "solver/core/verdict.hpp"
 
@@ -34,11 +35,36 @@ const SceneValue& field_of(FieldChoice choice) {
                                  {"displacement along x", displacement<0>}, {"displacement along y", displacement<1>}, {"displacement along z", displacement<2>},
                                  {"von Mises stress", [](const Vec3&, const Stress& s) { return elasticity::von_mises(s); }},
                                  {"stress xx", stress<0>}, {"stress yy", stress<1>}, {"stress zz", stress<2>},
-                                 {"stress yz", stress<3>}, {"stress xz", stress<4>}, {"stress xy", stress<5>}};
+                                 {"stress yz", stress<3>}, {"stress xz", stress<4>}, {"stress xy", stress<5>}, {"error indicator", nullptr},
+                                 {"contact pressure", nullptr}, {"gap", nullptr}, {"slip", nullptr}, {"", nullptr}};
   return fields[static_cast<int>(choice)];
 }
 
-bool is_stress(FieldChoice field) { return field >= FieldChoice::von_mises; }
+bool is_stress(FieldChoice field) { return field >= FieldChoice::von_mises && field <= FieldChoice::xy; }
+bool of_contacts(FieldChoice field) { return field >= FieldChoice::pressure; }
+
+/// √ of each cell's share of the square of the estimate, on the polygons that are drawn: the cells of `cut`, in space the facets of its boundary.
+std::vector<double> error_indicators(const Solution& s, int index, const mesh::Mesh& cut) {
+  const auto& shares = s.error_estimate().cells[index];
+  const int pieces = cut.cell_count() / static_cast<int>(shares.size());
+  const auto of_cell = [&](int cell) { return std::sqrt(std::max(0.0, shares[cell / pieces].sum())); };
+  std::vector<double> out;
+  if (cut.topology().dimension == 2)
+    for (int c = 0; c < cut.cell_count(); ++c) out.push_back(of_cell(c));
+  else
+    for (const mesh::Facet f : mesh::boundary(cut)) out.push_back(of_cell(f.cell));
+  return out;
+}
+
+MapField map_field(FieldChoice field) {
+  switch (field) {
+    case FieldChoice::pressure: return MapField::pressure;
+    case FieldChoice::gap: return MapField::gap;
+    case FieldChoice::slip: return MapField::slip;
+    case FieldChoice::status: return MapField::status;
+    default: throw InputError("a map shows a field of the contact: \"pressure\", \"gap\", \"slip\" or \"status\"");
+  }
+}
 
 /// The edges of cells of order 2 (in space of the facets drawn, as others are behind), cut in two at their nodes.
 std::vector<int> second_order_edges(const mesh::Mesh& mesh) {
@@ -55,7 +81,8 @@ std::vector<int> second_order_edges(const mesh::Mesh& mesh) {
   return edges;
 }
 
-BodyPicture body_picture(const Solution& s, int index, FieldChoice field) {
+BodyPicture body_picture(const Solution& s, int index, const SceneOptions& options) {
+  const FieldChoice field = options.field;
   const Body& body = s.body(index);
   const mesh::Mesh mesh = mesh::cut_at_nodes(*body.mesh);
   const int dim = body.dimension();
@@ -74,7 +101,10 @@ BodyPicture body_picture(const Solution& s, int index, FieldChoice field) {
     picture.points.insert(picture.points.end(), x.begin(), x.end());
     picture.displacement.insert(picture.displacement.end(), d.begin(), d.end());
   }
-  if (field == FieldChoice::none) return picture;
+  if (options.trajectories)
+    for (const Stress& at_node : s.stress(index)) picture.stress.insert(picture.stress.end(), {at_node[0], at_node[1], at_node[5]});
+  if (field == FieldChoice::error) picture.cell_values = error_indicators(s, index, mesh);
+  if (!field_of(field).value) return picture;
   for (int n = 0; n < mesh.node_count(); ++n)
     picture.values.push_back(field_of(field).value(mesh::at_node(u, n, dim), is_stress(field) ? s.stress(index)[n] : Stress{}));
   return picture;
@@ -166,33 +196,106 @@ double visible_deformation(const Solution& s) {
   return wanted <= 1 ? 1 : round_number_below(wanted);
 }
 
-ScenePicture compose(const Solution& s, const SceneOptions& options) {
-  const int dim = s.scene().dimension();
-  const auto missing = [&](FieldChoice f) { return options.field == f && dim == 2; };
-  if (missing(FieldChoice::uz) || missing(FieldChoice::yz) || missing(FieldChoice::xz))
-    throw InputError(std::string("field ") + field_of(options.field).label + " does not exist: the scene is 2-D");
-  ScenePicture picture;
-  picture.caption = solver::doubt(s.result());
-  picture.field_label = field_of(options.field).label;
-  picture.field_signed = options.field != FieldChoice::displacement && options.field != FieldChoice::von_mises;
-  picture.deformation = options.deform.value_or(visible_deformation(s));
-  const double size = scene_size(s);
-  for (int b = 0; b < static_cast<int>(s.scene().bodies.size()); ++b) {
-    picture.bodies.push_back(body_picture(s, b, options.field));
-    if (options.supports) add_supports(s, b, picture);
-    if (options.loads) add_loads(s, b, picture);
+namespace {
+
+void refuse_missing(FieldChoice field, int dimension) {
+  if (dimension != 2) return;
+  if (field == FieldChoice::uz || field == FieldChoice::yz || field == FieldChoice::xz)
+    throw InputError(std::string("field ") + field_of(field).label + " does not exist: the scene is 2-D");
+  if (of_contacts(field)) throw InputError("fields of contacts are for scenes in space; this one is 2-D, where status and pressure are drawn at the contact line");
+}
+
+/// How far each body moves from the middle of all.
+std::vector<Vec3> explosion(const Solution& s, double share) {
+  std::vector<Vec3> centres;
+  Vec3 middle{0, 0, 0};
+  for (const auto& body : s.scene().bodies) {
+    const mesh::Box box = body->mesh->box();
+    centres.push_back(part_way(box.low, box.high, 0.5));
+    middle = plus(middle, centres.back(), 1.0 / static_cast<double>(s.scene().bodies.size()));
   }
-  if (!options.contact) return picture;
+  for (Vec3& centre : centres) centre = plus({0, 0, 0}, plus(centre, middle, -1), share);
+  return centres;
+}
+
+void move(std::vector<double>& points, const Vec3& by) {
+  for (std::size_t i = 0; i < points.size(); ++i) points[i] += by[i % 3];
+}
+
+/// The surface of a contact goes with that of its bodies on which it is seen: its normal points away from the first one.
+void move_contact(ContactPicture& contact, const Vec3& first, const Vec3& second) {
+  Vec3 mean{0, 0, 0};
+  for (const ContactNode& node : contact.nodes) mean = plus(mean, node.normal, node.weight);
+  const bool own = mean[2] >= 0;  // from above
+  for (ContactNode& node : contact.nodes) {
+    node.position = plus(node.position, own ? first : second);
+    if (own) continue;
+    node.position = plus(node.position, node.normal, node.rest_gap);
+    node.displacement = plus(node.displacement, node.normal, node.gap - node.rest_gap);
+  }
+}
+
+void show_field(ContactPicture& contact, FieldChoice field) {
+  if (field == FieldChoice::status || !of_contacts(field)) return;
+  for (const ContactNode& node : contact.nodes) contact.values.push_back(field == FieldChoice::pressure ? node.pressure : field == FieldChoice::gap ? node.gap : node.slip);
+}
+
+void add_contacts(const Solution& s, const SceneOptions& options, const std::vector<Vec3>& moves, ScenePicture& picture) {
+  const double size = scene_size(s);
   for (const auto& contact : s.scene().contacts) {
     if (contact->kind != Contact::Kind::contact) continue;
     const scene::ContactResult result = s.contact(*contact);
-    picture.contacts.push_back(contact_picture(*contact, result));
+    ContactPicture& shown = picture.contacts.emplace_back(contact_picture(*contact, result));
+    show_field(shown, options.field);
+    const Vec3& first = moves[s.scene().index_of(contact->first.body.get())];
+    if (options.explode > 0) move_contact(shown, first, contact->second.body ? moves[s.scene().index_of(contact->second.body.get())] : first);
     if (!contact->second.body && options.obstacle) {
       RigidPicture obstacle = obstacle_picture(*contact, result, s.loading().move_of(s.scene().index_of(*contact)), picture.deformation, size);
       if (obstacle.points.size() >= 6) picture.obstacles.push_back(std::move(obstacle));
     }
   }
+}
+
+}  // namespace
+
+ScenePicture compose(const Solution& s, const SceneOptions& options) {
+  const int dim = s.scene().dimension();
+  refuse_missing(options.field, dim);
+  if (dim == 2 && options.explode > 0) throw InputError("'explode' is for scenes in space; this one is 2-D");
+  if (dim == 3 && options.trajectories) throw InputError("'trajectories' is for scenes in the plane; this one is in space");
+  ScenePicture picture;
+  picture.caption = solver::doubt(s.result());
+  picture.field_label = field_of(options.field).label;
+  picture.field_signed = options.field == FieldChoice::gap || (options.field != FieldChoice::displacement && options.field != FieldChoice::von_mises && options.field < FieldChoice::error);
+  picture.deformation = options.deform.value_or(visible_deformation(s));
+  picture.trajectories = options.trajectories;
+  const std::vector<Vec3> moves = explosion(s, options.explode);
+  for (int b = 0; b < static_cast<int>(s.scene().bodies.size()); ++b) {
+    const std::size_t supports = picture.supports.size(), loads = picture.loads.size();
+    picture.bodies.push_back(body_picture(s, b, options));
+    if (options.supports) add_supports(s, b, picture);
+    if (options.loads) add_loads(s, b, picture);
+    if (options.explode == 0) continue;
+    move(picture.bodies.back().points, moves[b]);
+    for (std::size_t i = supports; i < picture.supports.size(); ++i) picture.supports[i].position = plus(picture.supports[i].position, moves[b]);
+    for (std::size_t i = loads; i < picture.loads.size(); ++i) picture.loads[i].position = plus(picture.loads[i].position, moves[b]);
+  }
+  if (options.contact) add_contacts(s, options, moves, picture);
   return picture;
+}
+
+ScenePicture compose_map(const Solution& s, const Contact& contact, FieldChoice field) {
+  if (s.scene().dimension() == 2) throw InputError("'map' is for contacts in space; this scene is 2-D");
+  if (contact.kind != Contact::Kind::contact) throw InputError("'map' is for contacts; this is a glue");
+  ScenePicture picture = contact_map(contact_picture(contact, s.contact(contact)), map_field(field));
+  picture.caption = solver::doubt(s.result());
+  return picture;
+}
+
+void name_units(ScenePicture& picture, FieldChoice field, const SceneUnits& units) {
+  picture.length_unit = units.length, picture.pressure_unit = units.stress, picture.load_unit = units.load;
+  const bool length = field == FieldChoice::gap || field == FieldChoice::slip || (field >= FieldChoice::displacement && field <= FieldChoice::uz);
+  picture.field_unit = length ? units.length : is_stress(field) || field == FieldChoice::pressure ? units.stress : "";
 }
 
 }  // namespace dotyk::figure

@@ -9,7 +9,8 @@
 
 namespace dotyk::figure {
 
-enum class FieldChoice { none, displacement, ux, uy, uz, von_mises, xx, yy, zz, yz, xz, xy };
+// The last four are of contacts, on their surfaces in space and on maps.
+enum class FieldChoice { none, displacement, ux, uy, uz, von_mises, xx, yy, zz, yz, xz, xy, error, pressure, gap, slip, status };
 
 struct SceneOptions {
   FieldChoice field = FieldChoice::von_mises;
@@ -18,6 +19,13 @@ struct SceneOptions {
   bool obstacle = true;          // rigid obstacles (in space only where asked: they hide the contact)
   bool supports = false;
   bool loads = false;
+  bool trajectories = false;     // of the principal stresses, in the plane
+  double explode = 0;            // in space: bodies move from the middle of the scene by this share of their distance to it
+};
+
+// Units by name; empty ones are not written.
+struct SceneUnits {
+  std::string length, stress, load;
 };
 
 // Fills bodies, contacts, obstacles, symbols, the field with its label, and the
@@ -25,6 +33,12 @@ struct SceneOptions {
 // rigid obstacles are drawn: see obstacle_picture(). Throws InputError for a
 // field that the dimension does not have.
 ScenePicture compose(const scene::Solution& solution, const SceneOptions& options);
+
+// The map of a contact in space, see contact_map.hpp, with one of its fields. Throws InputError for another field, and in the plane.
+ScenePicture compose_map(const scene::Solution& solution, const scene::Contact& contact, FieldChoice field);
+
+// Writes the units into a picture that shows this field.
+void name_units(ScenePicture& picture, FieldChoice field, const SceneUnits& units);
 
 // Its cells look as their corners do.
 CellShape cell_shape(const mesh::Mesh& mesh);

@@ -104,13 +104,13 @@ std::vector<int> triangles(const Contact& contact, const scene::ContactResult& r
 
 ContactPicture contact_picture(const Contact& contact, const scene::ContactResult& result) {
   ContactPicture picture;
-  picture.name = contact.first.body->name + " " + contact.first.name;
+  picture.name = contact.first.body->name + (contact.second.body ? " – " + contact.second.body->name : "");
   picture.nodes_per_facet = contact.first.body->mesh->topology().facet_corners;
   picture.facets = contact_facets(contact, result.nodes);
   for (std::size_t k = 0; k < result.nodes.size(); ++k) {
     const scene::ContactNode& n = result.nodes[k];
     picture.nodes.push_back({n.x, n.displacement, n.normal, n.pressure, n.weight, static_cast<Status>(static_cast<int>(n.status)),
-                             n.shear, contact.second.body ? contact.rows[k].gap : 0});
+                             n.shear, contact.second.body ? contact.rows[k].gap : 0, n.gap, mesh::length(n.slip)});
   }
   return picture;
 }

@@ -88,6 +88,9 @@ void check_body(const BodyPicture& body, int dimension) {
   const std::size_t n = body.points.size() / 3;
   check_count(body.displacement, n, who, "displacement components", 3);
   check_count(body.values, n, who, "field values");
+  check_count(body.stress, n, who, "stress components", 3);
+  const std::size_t polygons = dimension == 2 ? body.cells.size() / nodes_per_cell(body.shape, 1) : body.facets.size() / body.nodes_per_facet;
+  require(body.cell_values.empty() || body.cell_values.size() == polygons, who, ": ", body.cell_values.size(), " values for ", polygons, " cells or facets");
   require(finite(body.points), who + ": a coordinate is not finite");
   require(finite(body.displacement), who + ": a displacement is not finite");
   require(dimension == 2 ? body.nodes_per_facet == 2 : body.nodes_per_facet == 3 || body.nodes_per_facet == 4,
@@ -113,11 +116,18 @@ void check_window(const ScenePicture& p) {
   refuse("shows no body; as drawn, they lie within " + box_text({all.left, all.bottom, all.right, all.top}));
 }
 
+void check_space(const ScenePicture& p) {
+  if (p.cut) require(finite(p.cut->point, p.cut->normal) && p.cut->normal != Vec3{0, 0, 0}, "a cut needs a finite point and a normal that is not zero");
+  if (!p.region) return;
+  const auto& r = *p.region;
+  if (!(finite(r) && r[0] < r[3] && r[1] < r[4] && r[2] < r[5])) throw InputError("window is empty; it must be {x0, y0, z0, x1, y1, z1} with x0 < x1, y0 < y1 and z0 < z1");
+}
+
 }  // namespace
 
-void check(const ScenePicture& p) {
-  check_sheet(p);
-  for (const std::string& unit : {p.field_unit, p.pressure_unit}) check_text("'unit'", unit);
+static void check_scene(const ScenePicture& p) {
+  check_text("'title'", p.title);
+  for (const std::string* unit : {&p.field_unit, &p.pressure_unit, &p.length_unit, &p.load_unit}) check_text("a unit", *unit);
   require(!p.bodies.empty(), "the picture " + p.file + " shows no body");
   require(std::isfinite(p.deformation), "the deformation factor is not finite");
   require(!p.field_range || (finite(*p.field_range) && (*p.field_range)[0] <= (*p.field_range)[1]),
@@ -125,6 +135,7 @@ void check(const ScenePicture& p) {
   const int dimension = p.bodies.front().dimension;
   for (const BodyPicture& body : p.bodies) check_body(body, dimension);
   check_window(p);
+  check_space(p);
   for (const RigidPicture& rigid : p.obstacles) {
     require(rigid.points.size() % 3 == 0 && finite(rigid.points), "an obstacle needs three finite coordinates a point");
     check_nodes(rigid.triangles, 3, rigid.points.size() / 3, "obstacle, triangles");
@@ -135,9 +146,25 @@ void check(const ScenePicture& p) {
       require(finite(node.position, node.displacement, node.normal, node.shear, node.pressure), who + ": a node has a value that is not finite");
     require(contact.nodes_per_facet >= 2 && contact.nodes_per_facet <= 4, who + ": a facet has 2, 3 or 4 nodes");
     check_nodes(contact.facets, contact.nodes_per_facet, contact.nodes.size(), who + ", facets");
+    check_count(contact.values, contact.nodes.size(), who, "field values");
+  }
+  for (const Note& note : p.notes) {
+    require(finite(note.position), "a note is at a point that is not finite");
+    check_text("'text' of a note", note.text);
   }
   for (const SupportSymbol& s : p.supports) require(finite(s.position, s.displacement, s.normal), "a support has a value that is not finite");
   for (const LoadArrow& l : p.loads) require(finite(l.position, l.displacement, l.vector), "a load has a value that is not finite");
+}
+
+void check(const ScenePicture& p) {
+  check_sheet(p);
+  check_scene(p);
+}
+
+void check(const SceneGrid& grid) {
+  check_sheet(grid);
+  require(!grid.panels.empty() && grid.columns > 0, grid.file + " needs one panel at least, and one column");
+  for (const ScenePicture& p : grid.panels) check_scene(p);
 }
 
 void check_drawing(const BeamDrawing& b) {

@@ -41,6 +41,7 @@ void pass(const Picture& picture) {
 }  // namespace
 
 void draw(const ScenePicture& picture) { pass(picture); }
+void draw(const SceneGrid& grid) { pass(grid); }
 void draw(const ChartPicture& picture) { pass(picture); }
 void draw(const ChartColumn& picture) { pass(picture); }
 void draw(const PagePicture& picture) { pass(picture); }

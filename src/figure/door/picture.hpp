@@ -67,6 +67,8 @@ struct BodyPicture {
   std::vector<double> displacement;         // 3 n, or empty: not displaced
   std::vector<int> cells;                   // nodes of the cells, 3, 4, 4 or 8 each, VTK order; in space they are not drawn
   std::vector<double> values;               // n: the field at the nodes, or empty: plain colour
+  std::vector<double> cell_values;          // one for each cell in the plane, each facet in space, in place of `values`; or empty
+  std::vector<double> stress;               // plane, 3 n: xx yy xy, for trajectories; or empty
   std::vector<int> facets;                  // nodes of the boundary facets, flat; empty in the plane: edges of one cell only
   int nodes_per_facet = 2;                  // 2 in the plane, 3 or 4 in space
   std::vector<int> edges;                   // mesh lines, two nodes each; empty: the edges of the cells
@@ -95,14 +97,17 @@ struct ContactNode {
   Status status = Status::open;
   Vec3 shear = {0, 0, 0};                   // friction on the first part, as the pressure
   double rest_gap = 0;                      // to another body at rest, along the normal; negative: an interference
+  double gap = 0, slip = 0;                 // as deformed; how far it has slipped
 };
 
-// One contact: its nodes on the first part, and how they hang together.
+// One contact: its nodes on the first part, and how they hang together. In the plane facets of 3 or 4 nodes are those of a map
+// (contact_map.hpp).
 struct ContactPicture {
   std::string name;
   std::vector<ContactNode> nodes;
   std::vector<int> facets;                  // positions in `nodes`, flat; may be empty: markers only
   int nodes_per_facet = 2;                  // 2 in the plane, 3 or 4 in space
+  std::vector<double> values;               // space, n: a field on the surface, or empty: it shows the statuses
 };
 
 enum class SupportKind { fix, slide, displace, spring };  // the first ones as scene::SupportKind has them
@@ -115,6 +120,19 @@ struct SupportSymbol {
   Vec3 normal = {0, 1, 0};                  // outward normal of the body; the symbol stands outside
   std::array<bool, 3> fixed = {true, true, true};  // components held (fix, displace, spring)
   SupportKind kind = SupportKind::fix;
+};
+
+// A text at a point of a scene.
+struct Note {
+  Vec3 position = {0, 0, 0};                // as drawn: deformed
+  std::string text;
+};
+
+// A plane, and the side of it that is left out: the one that the normal points to.
+struct Cut {
+  Vec3 point = {0, 0, 0}, normal = {0, -1, 0};
+  // How far on the side that is left out.
+  double beyond(const Vec3& p) const { return (p[0] - point[0]) * normal[0] + (p[1] - point[1]) * normal[1] + (p[2] - point[2]) * normal[2]; }
 };
 
 // A load arrow; lengths are scaled so that the greatest one is readable.
@@ -145,18 +163,33 @@ struct ScenePicture : Sheet {
   // picture, larger; colours and pressures are then scaled to what is seen. It
   // grows where the drawing of the pressure would not fit into it.
   std::optional<std::array<double, 4>> window;
+  std::optional<std::array<double, 6>> region;  // space: likewise, {x0, y0, z0, x1, y1, z1}
+  std::vector<std::array<double, 4>> marked;    // plane: framed boxes
+  std::optional<Cut> cut;                       // space, in the coordinates of the deformed picture
+  std::vector<Note> notes;
+  bool isolines = false;                        // plane: of the field, at the ticks of its bar
+  bool trajectories = false;                    // plane: of the principal stresses, the greater ones full, the lesser dashed
   std::vector<BodyPicture> bodies;          // all of one dimension
   std::vector<RigidPicture> obstacles;
   std::vector<ContactPicture> contacts;
   std::vector<SupportSymbol> supports;
   std::vector<LoadArrow> loads;
 
-  std::string pressure_unit;                // beside the greatest pressure and shear; may be empty
+  std::string length_unit, pressure_unit, load_unit;  // of the axes; of pressure and shear; of loads; may be empty
   bool shear = true;                        // arrows of the shear, where there is any
   PressureStyle pressure = PressureStyle::automatic;
   MeshEdges edges = MeshEdges::automatic;
+  bool inset = true;                        // space: a map of the contact that carries most beside the scene
   bool axes = true;                         // plane: ticks with coordinates; space: a triad
+  std::array<std::string, 2> axis_names = {"x", "y"};  // plane
   std::optional<Vec3> view_from;            // space: direction towards the eye; default: sees the contact side
+};
+
+// Scenes row by row on one sheet, with one legend, and one colour bar where they show the same field. Files and sizes of the panels
+// are not looked at.
+struct SceneGrid : Sheet {
+  int columns = 1;
+  std::vector<ScenePicture> panels;
 };
 
 // ----------------------------------------------------------------- charts
@@ -259,6 +292,7 @@ struct GridFile {
 // (path and reason), arrays of unequal or impossible length (which), a node
 // number out of range, a size out of range, the drawing library not found.
 void draw(const ScenePicture& picture);
+void draw(const SceneGrid& grid);
 void draw(const ChartPicture& picture);
 void draw(const ChartColumn& picture);
 

@@ -1,6 +1,4 @@
 // A plate from above: contour lines, what bears, supports, reactions.
-#include <map>
-
 #include "figure/canvas/axes.hpp"
 #include "figure/plate/plate_stage.hpp"
 
@@ -16,82 +14,16 @@ std::vector<Point> flat(const Stage& stage, const PlateLine& line) {
   return out;
 }
 
-// Where the field, linear on each triangle, has this value; closed lines end in their first point.
-std::vector<PlateLine> contour(const Plate& plate, double value) {
-  const std::vector<double>& field = plate.picture.values;
-  const std::vector<int>& t = plate.picture.triangles;
-  std::map<std::pair<int, int>, int> numbers;  // of crossings, by the sides of triangles that they are on
-  std::vector<Vec3> points;
-  std::vector<int> edges;
-  for (std::size_t k = 0; k + 2 < t.size(); k += 3) {
-    if (!std::all_of(&t[k], &t[k] + 3, [&](int i) { return std::isfinite(field[i]); })) continue;
-    std::vector<int> ends;
-    for (std::size_t c = 0; c < 3; ++c) {
-      const auto [i, j] = std::minmax(t[k + c], t[k + (c + 1) % 3]);
-      if ((field[i] > value) == (field[j] > value)) continue;
-      const auto [found, fresh] = numbers.try_emplace({i, j}, static_cast<int>(points.size()));
-      if (fresh) points.push_back(part_way(plate.node(i, 1), plate.node(j, 1), (value - field[i]) / (field[j] - field[i])));
-      ends.push_back(found->second);
+// Clear of edges, forces and supports.
+bool is_free(const Stage& stage, const Plate& plate, const Box& box) {
+  for (const EdgeRun& run : plate.runs)
+    for (std::size_t i = 0; i + 1 < run.points.size(); ++i) {
+      Point p = stage.view.flat(run.points[i].position), q = stage.view.flat(run.points[i + 1].position);
+      if (crop(p, q, box)) return false;
     }
-    if (ends.size() == 2 && ends[0] != ends[1]) edges.insert(edges.end(), ends.begin(), ends.end());
-  }
-  std::vector<PlateLine> out;
-  for (const std::vector<int>& chain : chains(edges)) {
-    out.emplace_back();
-    for (const int i : chain) out.back().push_back(points[i]);
-  }
-  return out;
-}
-
-// A place for a label on a contour line, clear of edges and other labels.
-struct ContourLabels {
-  Stage& stage;
-  const Plate& plate;
-  std::vector<Box> taken = {};
-
-  void add(const std::vector<Point>& line, const std::string& text) {
-    std::vector<double> way{0};
-    for (std::size_t i = 1; i < line.size(); ++i) way.push_back(way.back() + length(line[i] - line[i - 1]));
-    const double em = stage.em, size = small_text * em;
-    const Point extent = text_extent(text, size);
-    if (way.back() < 2.5 * extent.x + 2 * em) return;
-    for (const double share : {0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8, 0.1, 0.9}) {
-      const std::size_t i = std::lower_bound(way.begin(), way.end(), share * way.back()) - way.begin();
-      const Point at = line[std::min(i, line.size() - 1)];
-      const Box box = Box::about(at, extent).grown(0.35 * em);
-      if (!free(box)) continue;
-      taken.push_back(box);
-      return stage.over.text(at, text, {.size = size, .across = Align::middle, .up = Align::middle, .halo = true});
-    }
-  }
-
-  bool free(const Box& box) const {
-    if (std::any_of(taken.begin(), taken.end(), [&](const Box& other) { return box.overlaps(other); })) return false;
-    for (const EdgeRun& run : plate.runs)
-      for (std::size_t i = 0; i + 1 < run.points.size(); ++i) {
-        Point p = stage.view.flat(run.points[i].position), q = stage.view.flat(run.points[i + 1].position);
-        if (crop(p, q, box)) return false;
-      }
-    const auto on = [&](double x, double y) { return box.holds(stage.view.flat({x, y, 0}), stage.em); };
-    return std::none_of(plate.picture.forces.begin(), plate.picture.forces.end(), [&](const PlateForce& f) { return on(f.x, f.y); }) &&
-           std::none_of(plate.picture.supports.begin(), plate.picture.supports.end(), [&](const PlatePointSupport& s) { return on(s.x, s.y); });
-  }
-};
-
-double brightness(Colour c) { return (0.3 * c.r + 0.59 * c.g + 0.11 * c.b) / 255; }
-
-// At the labelled ticks of the colour bar.
-void draw_contours(Stage& stage, const Plate& plate) {
-  if (plate.picture.values.empty() || !stage.scale.shown) return;
-  ContourLabels labels{stage, plate};
-  for (const Tick& tick : linear_ticks(stage.scale.low, stage.scale.high, 6).ticks) {
-    const Colour colour = brightness(stage.scale.at(tick.value)) < 0.35 ? Colour{225, 225, 225} : Colour{55, 55, 55};
-    for (const PlateLine& line : contour(plate, tick.value)) {
-      const std::vector<Point> points = flat(stage, line);
-      stage.over.polyline(points, std::max(0.8, stage.em / (tick.label.empty() ? 40 : 22)), colour);
-      if (!tick.label.empty()) labels.add(points, tick.label);
-    }
-  }
+  const auto on = [&](double x, double y) { return box.holds(stage.view.flat({x, y, 0}), stage.em); };
+  return std::ranges::none_of(plate.picture.forces, [&](const PlateForce& f) { return on(f.x, f.y); }) &&
+         std::ranges::none_of(plate.picture.supports, [&](const PlatePointSupport& s) { return on(s.x, s.y); });
 }
 
 void draw_bearing(Stage& stage, const Plate& plate) {
@@ -217,7 +149,7 @@ void plan_legend(const Stage& stage, const Plate& plate, std::vector<LegendEntry
 }  // namespace
 
 std::vector<Layer> plan_layers(const Plate& plate) {
-  const auto below = [&plate](Stage& stage, vtkRenderer*) { draw_contours(stage, plate), draw_bearing(stage, plate); };
+  const auto below = [&plate](Stage& stage, vtkRenderer*) { draw_isolines(stage, [&](const Box& box) { return is_free(stage, plate, box); }), draw_bearing(stage, plate); };
   return {{2, below},
           {6, [&plate](Stage& stage, vtkRenderer*) { draw_above(stage, plate); },
            [&plate](const Stage& stage, std::vector<LegendEntry>& out) { plan_legend(stage, plate, out); },

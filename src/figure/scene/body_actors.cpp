@@ -1,12 +1,4 @@
 // The bodies themselves: fields, mesh edges, outlines.
-#include <vtkActor.h>
-#include <vtkFeatureEdges.h>
-#include <vtkFloatArray.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPolyDataMapper.h>
-#include <vtkPolyDataNormals.h>
-#include <vtkProperty.h>
 #include <vtkRenderer.h>
 
 #include "figure/canvas/axes.hpp"
@@ -16,9 +8,7 @@ namespace dotyk::figure {
 
 namespace {
 
-constexpr double feature_angle = 30;  // degrees between facets that make an edge
-constexpr Colour outline_colour{40, 40, 40}, undeformed_colour{130, 130, 130};
-constexpr std::array<Colour, 5> plain_colours{{{214, 222, 232}, {233, 224, 208}, {216, 230, 218}, {230, 218, 230}, {226, 226, 226}}};
+constexpr Colour undeformed_colour{130, 130, 130};
 
 // Nodes in rendered pixels, `lift` pixels nearer to the eye.
 std::vector<Vec3> pixels(const Stage& stage, const BodyPicture& body, double factor, double lift) {
@@ -29,37 +19,6 @@ std::vector<Vec3> pixels(const Stage& stage, const BodyPicture& body, double fac
     out[i] = stage.rendered(p, lift);
   }
   return out;
-}
-
-void add_surface(const Stage& stage, vtkRenderer* renderer, vtkPolyData* data, const BodyPicture& body, Colour plain) {
-  vtkNew<vtkPolyDataMapper> mapper;
-  vtkNew<vtkActor> actor;
-  if (!body.values.empty() && stage.scale.shown) {
-    vtkNew<vtkFloatArray> values;
-    for (const double value : body.values) values->InsertNextValue(static_cast<float>(value));
-    data->GetPointData()->SetScalars(values);
-    mapper->SetLookupTable(lookup_table(stage.scale));
-    mapper->UseLookupTableScalarRangeOn();
-    mapper->InterpolateScalarsBeforeMappingOn();
-  } else {
-    mapper->ScalarVisibilityOff();
-    actor->GetProperty()->SetColor(plain.r / 255.0, plain.g / 255.0, plain.b / 255.0);
-  }
-  if (stage.plane) {
-    mapper->SetInputData(data);
-    actor->GetProperty()->SetLighting(false);
-  } else {
-    vtkNew<vtkPolyDataNormals> normals;
-    normals->SetInputData(data);
-    normals->SetFeatureAngle(feature_angle);
-    mapper->SetInputConnection(normals->GetOutputPort());
-    // Mostly unshaded, so that colours remain those of the bar.
-    actor->GetProperty()->SetAmbient(0.68);
-    actor->GetProperty()->SetDiffuse(0.38);
-    actor->GetProperty()->SetSpecular(0);
-  }
-  actor->SetMapper(mapper);
-  renderer->AddActor(actor);
 }
 
 bool edges_wanted(const Stage& stage, const std::vector<Vec3>& at, const std::vector<int>& edges) {
@@ -87,36 +46,71 @@ void plane_outlines(Stage& stage, const BodyPicture& body) {
   }
 }
 
-void add_features(const Stage& stage, vtkRenderer* renderer, vtkPolyData* data, Colour colour, double width) {
-  vtkNew<vtkFeatureEdges> features;
-  features->SetInputData(data);
-  features->SetFeatureAngle(feature_angle);
-  features->ColoringOff();
-  features->ManifoldEdgesOff();
-  features->NonManifoldEdgesOff();
-  features->Update();
-  add_plain(stage, renderer, features->GetOutput(), colour, width);
+std::vector<int> nodes_of(const BodyPicture& body, const std::vector<int>& cells) {
+  const std::size_t each = nodes_per_cell(body.shape, 1);
+  std::vector<int> out;
+  for (const int c : cells) out.insert(out.end(), &body.cells[c * each], &body.cells[c * each] + each);
+  return out;
+}
+
+std::vector<double> values_of(const BodyPicture& body, const std::vector<int>& cells) {
+  std::vector<double> out;
+  if (!body.cell_values.empty())
+    for (const int c : cells) out.push_back(body.cell_values[c]);
+  return out;
+}
+
+// Polygons with the field of a body, and the edges of its cells. `on_polygons`: values for each of these; empty: those of the nodes.
+void draw_faces(const Stage& stage, vtkRenderer* renderer, const BodyPicture& body, const Facets& faces, const std::vector<double>& on_polygons, Colour plain) {
+  const double f = stage.picture.deformation;
+  const std::vector<Vec3> at = pixels(stage, body, f, 0);
+  const vtkSmartPointer<vtkPolyData> surface = poly_data(at, faces);
+  if (!stage.scale.shown || (body.values.empty() && on_polygons.empty())) add_surface(stage, renderer, surface, plain);
+  else on_polygons.empty() ? add_coloured(stage, renderer, surface, body.values) : add_coloured(stage, renderer, surface, on_polygons, true);
+  if (stage.picture.edges == MeshEdges::off) return;
+  const std::vector<int> edges = body.edges.empty() ? unique_edges(faces) : body.edges;
+  if (edges_wanted(stage, at, edges)) add_plain(stage, renderer, poly_data(pixels(stage, body, f, 0.5), {edges, 2}), {0, 0, 0}, 0.6, 0.32);
+}
+
+void draw_in_plane(Stage& stage, vtkRenderer* renderer, const BodyPicture& body, Colour plain) {
+  const int corners = nodes_per_cell(body.shape, 1);
+  if (!stage.window) {
+    draw_faces(stage, renderer, body, {body.cells, corners}, body.cell_values, plain);
+  } else {
+    const std::vector<int> near = cells_near(body, stage.picture.deformation, *stage.window);
+    draw_faces(stage, renderer, body, {nodes_of(body, near), corners}, values_of(body, near), plain);
+  }
+  plane_outlines(stage, body);
+}
+
+// The surface of a body in space without its inside.
+BodyPicture skin_of(const BodyPicture& body) {
+  std::vector<int> place(body.points.size() / 3, -1);
+  BodyPicture skin;
+  const auto take = [&](int i) {
+    if (place[i] >= 0) return place[i];
+    for (std::size_t c = 0; c < 3; ++c) skin.points.push_back(body.points[3 * i + c]);
+    for (std::size_t c = 0; c < 3 && !body.displacement.empty(); ++c) skin.displacement.push_back(body.displacement[3 * i + c]);
+    if (!body.values.empty()) skin.values.push_back(body.values[i]);
+    return place[i] = static_cast<int>(skin.points.size()) / 3 - 1;
+  };
+  for (const int i : body.facets) skin.facets.push_back(take(i));
+  for (const int i : body.edges) skin.edges.push_back(take(i));
+  return skin;
+}
+
+void draw_in_space(Stage& stage, vtkRenderer* renderer, const BodyPicture& body, Colour plain) {
+  const BodyPicture skin = skin_of(body);
+  const Facets faces{skin.facets, body.nodes_per_facet};
+  draw_faces(stage, renderer, skin, faces, body.cell_values, plain);
+  add_features(stage, renderer, poly_data(pixels(stage, skin, stage.picture.deformation, 2), faces), outline_colour, std::max(1.2, stage.em / 18));
+  if (draws_undeformed(stage, skin)) add_features(stage, renderer, poly_data(pixels(stage, skin, 0, 0.3), faces), undeformed_colour, std::max(0.8, stage.em / 28));
 }
 
 void draw_bodies(Stage& stage, vtkRenderer* renderer) {
-  const double f = stage.picture.deformation;
   for (std::size_t k = 0; k < stage.picture.bodies.size(); ++k) {
     const BodyPicture& body = stage.picture.bodies[k];
-    const int corners = nodes_per_cell(body.shape, 1);
-    const Facets faces = stage.window ? Facets{cells_near(body, f, *stage.window), corners} : stage.plane ? Facets{body.cells, corners} : Facets{body.facets, body.nodes_per_facet};
-    const std::vector<Vec3> at = pixels(stage, body, f, 0);
-    const vtkSmartPointer<vtkPolyData> surface = poly_data(at, faces);
-    add_surface(stage, renderer, surface, body, plain_colours[k % plain_colours.size()]);
-    if (stage.picture.edges != MeshEdges::off) {
-      const std::vector<int> edges = body.edges.empty() ? unique_edges(faces) : body.edges;
-      if (edges_wanted(stage, at, edges)) add_plain(stage, renderer, poly_data(pixels(stage, body, f, 0.5), {edges, 2}), {0, 0, 0}, 0.6, 0.32);
-    }
-    if (stage.plane) {
-      plane_outlines(stage, body);
-      continue;
-    }
-    add_features(stage, renderer, poly_data(pixels(stage, body, f, 2), faces), outline_colour, std::max(1.2, stage.em / 18));
-    if (draws_undeformed(stage, body)) add_features(stage, renderer, poly_data(pixels(stage, body, 0, 0.3), faces), undeformed_colour, std::max(0.8, stage.em / 28));
+    if (!body.cells.empty() || !body.facets.empty()) stage.plane ? draw_in_plane(stage, renderer, body, plain_colour(k)) : draw_in_space(stage, renderer, body, plain_colour(k));
   }
 }
 
@@ -137,6 +131,11 @@ void body_legend(const Stage& stage, std::vector<LegendEntry>& out) {
 
 std::vector<int> outline_edges(const BodyPicture& body) {
   return body.facets.empty() ? rim({body.cells, nodes_per_cell(body.shape, 1)}) : body.facets;
+}
+
+Colour plain_colour(std::size_t k) {
+  constexpr std::array<Colour, 5> colours{{{214, 222, 232}, {233, 224, 208}, {216, 230, 218}, {230, 218, 230}, {226, 226, 226}}};
+  return colours[k % colours.size()];
 }
 
 Layer body_layer() { return {1, draw_bodies, body_legend}; }

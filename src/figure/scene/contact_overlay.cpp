@@ -1,6 +1,7 @@
 // What happens on the contact boundary: status, pressure and shear.
 #include <set>
 
+#include "figure/canvas/axes.hpp"
 #include "figure/scene/stage.hpp"
 
 namespace dotyk::figure {
@@ -8,7 +9,7 @@ namespace dotyk::figure {
 namespace {
 
 constexpr Colour rim_colour{255, 255, 255};
-constexpr double longest_shear = 1.5, least_share = 0.1;  // of an arrow: em, and of the greatest shear
+constexpr double longest_shear = 1.5, least_share = 0.2;  // of an arrow: em, and of the greatest shear
 
 void draw_strip(Stage& stage, const ContactPicture& contact) {
   const std::vector<Point> at = stage.at(contact.nodes);
@@ -49,6 +50,29 @@ bool is_short(const Stage& stage, const ContactPicture& contact) {
 
 constexpr double wide = 0.26, thin = 0.15;  // lines with markers and without, in em
 
+// Nodes of one status that follow each other along a contact line, and how long that is in pixels, to half way to their neighbours.
+struct Run {
+  std::vector<int> nodes;
+  double length = 0;
+};
+
+std::vector<Run> runs(const ContactPicture& contact, const std::vector<Point>& at) {
+  std::vector<Run> out;
+  for (const std::vector<int>& chain : chains(contact.facets))
+    for (std::size_t k = 0; k < chain.size(); ++k) {
+      const double half = k == 0 ? 0 : length(at[chain[k]] - at[chain[k - 1]]) / 2;
+      if (k > 0) out.back().length += half;
+      if (k == 0 || contact.nodes[chain[k]].status != contact.nodes[chain[k - 1]].status) out.emplace_back();
+      out.back().nodes.push_back(chain[k]);
+      out.back().length += half;
+    }
+  return out;
+}
+
+constexpr double marker_size = 0.55, least_marker = 0.3;  // em
+
+void mark(Stage& stage, Status status, Point at, double size) { stage.over.marker(status_marker(status), at, size * stage.em, status_colour(status)); }
+
 // Each half of a facet in the colour of its node.
 void draw_line(Stage& stage, const ContactPicture& contact) {
   const std::vector<Point> at = stage.at(contact.nodes);
@@ -62,10 +86,16 @@ void draw_line(Stage& stage, const ContactPicture& contact) {
         stage.over.line(at[i], 0.5 * (at[a] + at[b]), w, colour);
         stage.over.disc(at[i], w / 2, colour);
       }
-  if (!markers) return;
-  for (const std::size_t i : stage.spaced(at, 0.95 * stage.em, 0.36 * stage.em)) {
-    const Status status = contact.nodes[i].status;
-    stage.over.marker(status_marker(status), at[i], 0.55 * stage.em, status_colour(status));
+  std::set<std::size_t> marked;
+  if (markers)
+    for (const std::size_t i : stage.spaced(at, 0.95 * stage.em, 0.36 * stage.em)) marked.insert(i);
+  for (const std::size_t i : marked) mark(stage, contact.nodes[i].status, at[i], marker_size);
+  // Each run of one status keeps a marker, which is as large as there is room for.
+  for (const Run& run : runs(contact, at)) {
+    const std::size_t middle = run.nodes[run.nodes.size() / 2];
+    const double size = std::min(marker_size, run.length / stage.em);
+    if (size < least_marker || !stage.shows(at[middle], 0.36 * stage.em) || std::ranges::any_of(run.nodes, [&](int i) { return marked.contains(i); })) continue;
+    mark(stage, contact.nodes[middle].status, at[middle], size);
   }
 }
 
@@ -95,6 +125,7 @@ LegendEntry status_entry(const Stage& stage, Status status) {
   const auto& contacts = stage.picture.contacts;
   const bool markers = std::any_of(contacts.begin(), contacts.end(), [&](const ContactPicture& c) { return !is_short(stage, c); });
   const Colour colour = status_colour(status);
+  if (stage.map()) return map_status_entry(stage, status);
   if (stage.plane)
     return {status_name(status), [=, em = stage.em](Canvas& c, const Box& b) {
               c.line(b.midline()[0], b.midline()[1], (markers ? wide : thin) * em, colour);
@@ -102,14 +133,18 @@ LegendEntry status_entry(const Stage& stage, Status status) {
             }};
   return {status_name(status), [=, em = stage.em](Canvas& c, const Box& b) {
             const double middle = b.centre().y;
-            const Box sample{b.left + 0.4 * em, middle - 0.35 * em, b.right - 0.4 * em, middle + 0.35 * em};
+            const double half = std::min(0.6 * em, 0.4 * b.width());
+            const Box sample{b.centre().x - half, middle - 0.35 * em, b.centre().x + half, middle + 0.35 * em};
             status == Status::open ? c.outline(sample, 0.16 * em, colour) : c.box(sample, colour);
           }};
 }
 
-// As a strip with an ordinate at each node, or as arrows, and dots on the plan of a contact in space.
+std::string at_most(const char* what, double value, const std::string& unit) { return std::string(what) + ", at most " + number(value) + (unit.empty() ? "" : " " + unit); }
+
+// As a strip with an ordinate at each node, as arrows, or as dots on a map. In the plane the greatest is written beside it.
 LegendEntry pressure_entry(const Stage& stage) {
-  if (stage.strips())
+  const bool map = stage.map();
+  if (stage.strips() && !map)
     return {"contact pressure", [em = stage.em](Canvas& c, const Box& b) {
               const double low = b.centre().y - 0.3 * em, w = b.width();
               std::array<Point, 9> hill;
@@ -120,19 +155,30 @@ LegendEntry pressure_entry(const Stage& stage) {
               c.convex(hill, pressure_fill, 0.9);
               c.polyline(hill, std::max(1.2, em / 14), pressure_line);
             }};
-  return {"contact pressure", [em = stage.em, dots = inset_width(stage) > 0](Canvas& c, const Box& b) {
-            const double x = b.centre().x - (dots ? 0.4 * em : 0);
-            c.arrow({x, b.top - 0.1 * em}, {x, b.bottom + 0.1 * em}, std::max(1.2, em / 14), 0.42 * em, pressure_line);
-            if (dots) c.disc({x + 0.9 * em, b.centre().y}, 0.24 * em, pressure_line);
+  const std::string name = stage.plane && !map ? "contact pressure" : at_most("contact pressure", stage.greatest_pressure, stage.picture.pressure_unit);
+  return {name, [em = stage.em, arrow = !map, dots = map || stage.inset](Canvas& c, const Box& b) {
+            const double x = b.centre().x - (arrow && dots ? 0.4 * em : 0);
+            if (arrow) c.arrow({x, b.top - 0.1 * em}, {x, b.bottom + 0.1 * em}, std::max(1.2, em / 14), 0.42 * em, pressure_line);
+            if (dots) c.disc({x + (arrow ? 0.9 * em : 0), b.centre().y}, 0.24 * em, pressure_line);
           }};
 }
 
 LegendEntry shear_entry(const Stage& stage) {
-  const std::string& unit = stage.picture.pressure_unit;
-  return {"shear, at most " + number(stage.greatest_shear) + (unit.empty() ? "" : " " + unit), [em = stage.em](Canvas& c, const Box& b) {
+  return {at_most("shear", stage.greatest_shear, stage.picture.pressure_unit), [em = stage.em](Canvas& c, const Box& b) {
             const auto [from, to] = b.midline();
             c.arrow({from.x + 0.1 * em, from.y}, {to.x - 0.1 * em, to.y}, std::max(1.4, em / 11), 0.42 * em, shear_line);
           }};
+}
+
+// "open and slip", "open, stick and slip".
+std::string listed(const std::set<Status>& statuses) {
+  std::string out;
+  std::size_t k = 0;
+  for (const Status status : statuses) {
+    out += (k == 0 ? "" : k + 1 == statuses.size() ? " and " : ", ") + std::string(status_name(status));
+    ++k;
+  }
+  return out;
 }
 
 void contact_legend(const Stage& stage, std::vector<LegendEntry>& out) {
@@ -142,33 +188,46 @@ void contact_legend(const Stage& stage, std::vector<LegendEntry>& out) {
     for (std::size_t i = 0; i < seen.size(); ++i)
       if (seen[i]) present.insert(contact.nodes[i].status);
   }
-  for (const Status status : present) out.push_back(status_entry(stage, status));
-  if (stage.greatest_pressure > 0 && stage.pressures()) out.push_back(pressure_entry(stage));
-  if (stage.greatest_shear > 0) out.push_back(shear_entry(stage));
+  if (stage.colours_contacts() && present.size() > 1)
+    out.push_back({"border of " + listed(present), [em = stage.em](Canvas& c, const Box& b) {
+                     c.line(b.midline()[0], b.midline()[1], 0.3 * em, {150, 150, 150});
+                     c.line(b.midline()[0], b.midline()[1], 0.16 * em, {255, 255, 255});
+                   }});
+  if (!stage.colours_contacts())
+    for (const Status status : present) out.push_back(status_entry(stage, status));
+  const bool in_colours = stage.colours_contacts() || (stage.map() && stage.scale.shown);
+  if (stage.greatest_pressure > 0 && stage.pressures() && !in_colours) out.push_back(pressure_entry(stage));
+  if (stage.greatest_shear > 0 && (stage.plane || stage.inset)) out.push_back(shear_entry(stage));
 }
 
-// In space the plan beside the scene says the greatest pressure.
+// In space, and on maps, the legend says the greatest pressure.
 std::vector<Label> labels(const Stage& stage) {
   std::vector<Label> out;
-  if (stage.pressures() && inset_width(stage) == 0)
+  if (stage.pressures() && stage.plane && !stage.map())
     for (const ContactPicture& contact : stage.picture.contacts)
       if (const std::optional<Label> label = peak_label(stage, contact)) out.push_back(*label);
+  const Box sheet = Box{0, 0, 1.0 * stage.picture.width, 1.0 * stage.picture.height}.grown(-0.3 * stage.em);
+  if (stage.crowded)
+    for (Label& label : out) label.box = pushed(label.box, sheet);
   return out;
 }
 
 void contact_bounds(const Stage& stage, Bounds& bounds) {
   for (const ContactPicture& contact : stage.picture.contacts)
     for (const ContactNode& node : contact.nodes) {
-      if (stage.pressures() && node.pressure > 0 && stage.greatest_pressure > 0) bounds.add(pressure_tip(stage, node));
-      if (stage.plane && stage.greatest_shear > 0 && length(node.shear) > 0)
+      if (stage.pressures() && contact.values.empty() && node.pressure > 0 && stage.greatest_pressure > 0) bounds.add(pressure_tip(stage, node));
+      if (stage.plane && !stage.map() && stage.greatest_shear > 0 && length(node.shear) > 0)
         for (const Point& end : shear_arrow(stage, node)) bounds.add(end);
     }
+  if (stage.crowded) return;
   for (const Label& label : labels(stage)) bounds.add(label.box);
 }
 
 void draw_contacts(Stage& stage, vtkRenderer* renderer) {
   for (const ContactPicture& contact : stage.picture.contacts) {
-    if (stage.plane) {
+    if (stage.map()) {
+      draw_contact_map(stage, contact);
+    } else if (stage.plane) {
       if (stage.strips()) draw_strip(stage, contact);
       if (contact.nodes_per_facet == 2) draw_joint(stage, contact), draw_line(stage, contact);
       if (stage.pressures() && !stage.strips()) draw_arrows(stage, contact);
@@ -202,7 +261,18 @@ void draw_shear(Stage& stage, const ContactPicture& contact, const std::vector<P
   std::vector<Point> places;
   for (std::size_t i = 0; i < at.size(); ++i)
     if (length(contact.nodes[i].shear) >= least_share * stage.greatest_shear) rubbing.push_back(i), places.push_back(at[i]);
-  for (const std::size_t k : choice(places)) {
+  std::vector<std::size_t> chosen = choice(places);
+  // The greatest is among them, in place of that next to it.
+  const auto shear = [&](std::size_t k) { return length(contact.nodes[rubbing[k]].shear); };
+  std::vector<std::size_t> seen;
+  for (std::size_t k = 0; k < rubbing.size(); ++k)
+    if (stage.shows(places[k], 0.4 * stage.em)) seen.push_back(k);
+  if (!chosen.empty() && !seen.empty()) {
+    const std::size_t greatest = *std::ranges::max_element(seen, {}, shear);
+    if (shear(greatest) > (1 + 1e-6) * shear(*std::ranges::max_element(chosen, {}, shear)))
+      *std::ranges::min_element(chosen, {}, [&](std::size_t k) { return length(places[k] - places[greatest]); }) = greatest;
+  }
+  for (const std::size_t k : chosen) {
     const auto [tail, head] = arrow(rubbing[k]);
     stage.over.arrow(tail, head, std::max(1.4, stage.em / 11), 0.42 * stage.em, shear_line, std::max(0.9, stage.em / 24));
   }

@@ -1,6 +1,10 @@
 // The contact in space: statuses on the facets, pressure as arrows that bodies in
-// front of them hide. As it mostly hides between the bodies, a plan of it, seen along
-// its normal, stands beside the scene.
+// front of them hide; or a field on the facets. As it mostly hides between the bodies, a map
+// of it stands beside the scene.
+#include <iterator>
+
+#include "figure/canvas/sheet.hpp"
+#include "figure/scene/contact_map.hpp"
 #include "figure/scene/shapes.hpp"
 
 namespace dotyk::figure {
@@ -21,13 +25,6 @@ Plan plan_of(const ContactPicture& contact) {
   return axis == 1 ? Plan{0, 2} : Plan{1, 2};
 }
 
-// The part of a facet that is next to its corner k.
-template <class P>
-std::array<P, 4> quarter(const std::vector<P>& corner, const P& centre, std::size_t k) {
-  const std::size_t n = corner.size();
-  return {corner[k], part_way(corner[k], corner[(k + 1) % n], 0.5), centre, part_way(corner[k], corner[(k + n - 1) % n], 0.5)};
-}
-
 // The rim of the contact part where it is open, up to the middles of the edges beside.
 void add_open_rim(const Stage& stage, const ContactPicture& contact, vtkRenderer* renderer) {
   Shapes lines(stage, 2);
@@ -40,27 +37,40 @@ void add_open_rim(const Stage& stage, const ContactPicture& contact, vtkRenderer
   lines.show(renderer, status_colour(Status::open), 0.16 * stage.em);
 }
 
+std::vector<Vec3> corners(const Stage& stage, const ContactPicture& contact, std::span<const int> facet) {
+  std::vector<Vec3> out;
+  for (const int i : facet) out.push_back(stage.place(contact.nodes[i]));
+  return out;
+}
+
 // Each facet, quartered to its nodes, in their colours.
-void add_facets(const Stage& stage, const ContactPicture& contact, vtkRenderer* renderer) {
-  const int each = contact.nodes_per_facet;
-  if (each < 3) return;
+void add_statuses(const Stage& stage, const ContactPicture& contact, vtkRenderer* renderer) {
   for (const Status status : {Status::closed, Status::stick, Status::slip}) {  // open leaves the field to be seen
     Shapes quads(stage, 4);
-    for (std::size_t f = 0; f + each <= contact.facets.size(); f += each) {
-      Vec3 centre{0, 0, 0};
-      std::vector<Vec3> corner;
-      for (int k = 0; k < each; ++k) {
-        corner.push_back(stage.place(contact.nodes[contact.facets[f + k]]));
-        centre = plus(centre, corner.back(), 1.0 / each);
-      }
-      for (int k = 0; k < each; ++k) {
-        if (contact.nodes[contact.facets[f + k]].status != status) continue;
-        for (const Vec3& p : quarter(corner, centre, k)) quads.add(p, 1.5);
-      }
-    }
+    each_polygon({contact.facets, contact.nodes_per_facet}, [&](std::span<const int> facet) {
+      const auto parts = quarters(corners(stage, contact, facet));
+      for (std::size_t k = 0; k < parts.size(); ++k)
+        if (contact.nodes[facet[k]].status == status)
+          for (const Vec3& p : parts[k]) quads.add(p, 1.5);
+    });
     quads.show(renderer, status_colour(status));
   }
   add_open_rim(stage, contact, renderer);
+}
+
+// A field on the surface; lines between nodes of different statuses.
+void add_field(const Stage& stage, const ContactPicture& contact, vtkRenderer* renderer) {
+  std::vector<Vec3> at;
+  for (const ContactNode& node : contact.nodes) at.push_back(stage.rendered(stage.view.pixel(stage.place(node)), 1.5));
+  const Facets facets{contact.facets, contact.nodes_per_facet};
+  add_coloured(stage, renderer, poly_data(at, facets), contact.values);
+  Shapes borders(stage, 2);
+  each_polygon(facets, [&](std::span<const int> facet) {
+    const auto parts = quarters(corners(stage, contact, facet));
+    for (std::size_t k = 0; k < parts.size(); ++k)
+      if (contact.nodes[facet[k]].status != contact.nodes[facet[(k + 1) % parts.size()]].status) borders.add(parts[k][1], 3), borders.add(parts[k][2], 3);
+  });
+  borders.show(renderer, {255, 255, 255}, 0.16 * stage.em);
 }
 
 // Flat arrows that face the eye: a shaft of four corners, a head of four of
@@ -101,7 +111,16 @@ void add_arrows(const Stage& stage, const ContactPicture& contact, vtkRenderer* 
   dark.show(renderer, pressure_line);
 }
 
-constexpr Colour outline_ink{30, 30, 30};
+}  // namespace
+
+void add_contact_surface(const Stage& stage, const ContactPicture& contact, vtkRenderer* renderer) {
+  if (contact.nodes_per_facet > 2) contact.values.empty() ? add_statuses(stage, contact, renderer) : add_field(stage, contact, renderer);
+  if (stage.pressures() && contact.values.empty()) add_arrows(stage, contact, renderer);
+}
+
+namespace {
+
+constexpr double inset_share = 0.36, inset_em = 14;  // of the picture's width, and letters
 
 // The contact that carries most, of those that have facets; of equals (but for rounding) the first.
 const ContactPicture* inset_contact(const ScenePicture& picture) {
@@ -116,71 +135,31 @@ const ContactPicture* inset_contact(const ScenePicture& picture) {
   return best;
 }
 
-void fill(Stage& stage, const ContactPicture& contact, const std::vector<Point>& at) {
-  const int each = contact.nodes_per_facet;
-  for (std::size_t f = 0; f + each <= contact.facets.size(); f += each) {
-    std::vector<Point> corner;
-    Point centre;
-    for (int k = 0; k < each; ++k) {
-      corner.push_back(at[contact.facets[f + k]]);
-      centre = centre + 1.0 / each * corner.back();
-    }
-    for (int k = 0; k < each; ++k) {
-      const Status status = contact.nodes[contact.facets[f + k]].status;
-      stage.over.convex(quarter(corner, centre, k), status_colour(status), status == Status::open ? 0.22 : 1.0);
-    }
-  }
-}
-
 }  // namespace
 
-void add_contact_surface(const Stage& stage, const ContactPicture& contact, vtkRenderer* renderer) {
-  add_facets(stage, contact, renderer);
-  if (stage.pressures()) add_arrows(stage, contact, renderer);
-}
-
-double inset_width(const Stage& stage) {
-  if (stage.plane || !inset_contact(stage.picture)) return 0;
-  return std::min(10.5 * stage.em, 0.3 * stage.picture.width);
-}
-
-void draw_inset(Stage& stage, const Box& room) {
-  const ContactPicture* contact = inset_contact(stage.picture);
-  if (stage.plane || !contact) return;
-  const double em = stage.em;
-  const Plan plan = plan_of(*contact);
+std::optional<ScenePicture> inset_of(const ScenePicture& picture) {
+  const ContactPicture* contact = picture.inset && picture.bodies.front().dimension == 3 ? inset_contact(picture) : nullptr;
+  if (!contact) return std::nullopt;
+  ScenePicture map = contact_map(*contact, MapField::status);
+  const double em = letters(picture);
   Bounds bounds;
-  for (const ContactNode& node : contact->nodes) bounds.add(plan(node.position));
-  // Title above, names of the axes to the left and below.
-  const Box plot{room.left + 0.9 * em, room.bottom + 2.2 * em, room.right - 0.2 * em, room.top - 1.5 * em};
-  const double scale = std::min(plot.width() / std::max(bounds.width(), 1e-300), plot.height() / std::max(bounds.height(), 1e-300));
-  const Point centre{plot.centre().x, plot.top - scale * bounds.height() / 2};
-  std::vector<Point> at;
-  for (const ContactNode& node : contact->nodes) at.push_back(centre + scale * (plan(node.position) - bounds.centre()));
-  fill(stage, *contact, at);
+  for (const ContactNode& node : map.contacts.front().nodes) bounds.add(Point{node.position[0], node.position[1]});
+  map.file = picture.file, map.title = "contact " + contact->name;
+  map.width = static_cast<int>(std::min(inset_em * em, inset_share * picture.width));
+  const double plot = map.width - 4.5 * em, around = 6 * em;  // beside it axes and their numbers, above and below it these and the title
+  map.height = static_cast<int>(std::min(plot * std::min(1.6, bounds.height() / std::max(bounds.width(), 1e-300)) + around, 0.62 * picture.height));
+  map.printed = printed_width(picture) * map.width / picture.width;
+  map.length_unit = picture.length_unit;
+  map.pressure = picture.pressure, map.shear = picture.shear;
+  return map;
+}
 
-  // Dots whose area is the pressure.
-  const double spacing = 0.55 * em;
-  if (stage.greatest_pressure > 0 && stage.pressures())
-    for (const std::size_t i : spread(at, at, spacing)) {
-      const double share = contact->nodes[i].pressure / stage.greatest_pressure;
-      if (share > 0.002) stage.over.disc(at[i], 0.45 * spacing * std::sqrt(share), pressure_line);
-    }
-  draw_shear(stage, *contact, at, [&](const std::vector<Point>& places) { return spread(places, places, 0.85 * em); }, [&](std::size_t i) {
-    const Point half = 0.5 * em / stage.greatest_shear * plan(contact->nodes[i].shear);
-    return std::array{at[i] - half, at[i] + half};
-  });
-  for (const auto& [a, b] : pairs(rim({contact->facets, contact->nodes_per_facet}))) stage.over.line(at[a], at[b], std::max(1.2, em / 18), outline_ink);
-
-  const double half_w = scale * bounds.width() / 2, half_h = scale * bounds.height() / 2;
-  TextStyle style{.size = 0.85 * em, .across = Align::middle, .colour = outline_ink};
-  stage.over.text({centre.x, centre.y + half_h + 0.25 * em}, contact->name.empty() ? "contact" : "contact " + contact->name, style);
-  style.up = Align::high;
-  stage.over.text({centre.x, centre.y - half_h - 0.2 * em}, std::string(1, "xyz"[plan.across]), style);
-  if (const std::optional<Label> peak = peak_label(stage, *contact); peak && stage.pressures())
-    stage.over.text({centre.x, centre.y - half_h - 1.2 * em}, "pressure " + peak->text, style);
-  style.up = Align::middle, style.across = Align::high;
-  stage.over.text({centre.x - half_w - 0.35 * em, centre.y}, std::string(1, "xyz"[plan.up]), style);
+void draw_inset(Stage& stage, Point corner) {
+  Stage map(*stage.inset, stage.corner + corner);
+  map.own_legend = false;
+  lay_out(map);
+  std::vector<Painted> parts = painted(map);
+  std::move(parts.begin(), parts.end(), std::back_inserter(stage.insets));
 }
 
 }  // namespace dotyk::figure

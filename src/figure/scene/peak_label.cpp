@@ -26,6 +26,10 @@ public:
       const std::vector<Point> at = obstacle_line(stage.view, rigid);
       for (std::size_t i = 0; i + 1 < at.size(); ++i) add(at[i], at[i + 1]), add(at[i] + depth, at[i + 1] + depth);
     }
+    for (const SupportSymbol& s : p.supports) {
+      const Point at = stage.at(s), out = at + stage.em * stage.view.direction(s.normal), aside = 0.6 * Point{at.y - out.y, out.x - at.x};
+      add(at, out), add(out - aside, out + aside);
+    }
     for (const ContactPicture& contact : p.contacts)
       if (contact.nodes_per_facet == 2) add_tips(stage, contact);
   }
@@ -52,12 +56,6 @@ private:
   Box near_;
   std::vector<Line> lines_;
 };
-
-// Into the frame, as far as it goes.
-Box pushed(Box box, const Box& frame) {
-  box = box.moved({std::min(0.0, frame.right - box.right), std::min(0.0, frame.top - box.top)});
-  return box.moved({std::max(0.0, frame.left - box.left), std::max(0.0, frame.bottom - box.bottom)});
-}
 
 // The free place nearest to the wanted one: farther out along n first, then to
 // the sides of it.

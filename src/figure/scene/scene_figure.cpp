@@ -1,5 +1,8 @@
 // A scene figure: three layers, one above the other. Obstacles of the plane
 // below, then bodies in VTK's own renderer, then symbols, legends and texts.
+#include <iterator>
+
+#include <vtkActorCollection.h>
 #include <vtkCamera.h>
 #include <vtkLight.h>
 #include <vtkNew.h>
@@ -12,10 +15,12 @@
 
 namespace dotyk::figure {
 
-Stage::Stage(const ScenePicture& p)
-    : picture(p), factor(image_factor(p)), plane(p.bodies.front().dimension == 2), em(letters(p)),
-      layers{contact_layer(), obstacle_layer(), load_layer(), support_layer(), body_layer()} {
-  if (p.window) window = box_of(*p.window);
+Stage::Stage(const ScenePicture& p, Point at)
+    : picture(p), corner(at), factor(image_factor(p)), plane(p.bodies.front().dimension == 2), em(letters(p)),
+      layers{contact_layer(), obstacle_layer(), load_layer(), support_layer(), isoline_layer(), trajectory_layer(), note_layer(), body_layer()} {
+  under.origin(corner), over.origin(corner);
+  inset = inset_of(p);
+  if (p.window) window = asked = box_of(*p.window);
   scale = colour_scale(p, window);
   set_greatest();
   for (const LoadArrow& load : p.loads) greatest_load = std::max(greatest_load, std::sqrt(dot(load.vector, load.vector)));
@@ -99,21 +104,28 @@ void set_camera(const Stage& stage, vtkRenderer* renderer) {
   renderer->AddLight(light);
 }
 
-void draw_stage(Stage& stage) {
+}  // namespace
+
+std::vector<Painted> painted(Stage& stage) {
   vtkNew<vtkRenderer> bodies;
   if (stage.window) stage.over.clip(stage.frame);
   std::vector<Layer> upwards = stage.layers;
   std::stable_sort(upwards.begin(), upwards.end(), [](const Layer& a, const Layer& b) { return a.height < b.height; });
   for (const Layer& layer : upwards)
     if (layer.draw) layer.draw(stage, bodies);
+  if (stage.picture.cut) cut_bodies(stage, bodies);
   stage.over.no_clip();
   // The rim of a window, above what it cuts off.
   if (stage.window) stage.over.outline(stage.frame, std::max(1.0, stage.em / 20), {30, 30, 30});
-  set_camera(stage, bodies);
-  write_picture(stage.picture, stage.under, rendered(stage.picture, bodies), stage.over);
+  Painted whole{std::move(stage.under), {}, Box{0, 0, 1.0 * stage.picture.width, 1.0 * stage.picture.height}.moved(stage.corner), std::move(stage.over)};
+  if (bodies->GetActors()->GetNumberOfItems() > 0) {
+    set_camera(stage, bodies);
+    whole.image = rendered(stage.picture, bodies);
+  }
+  std::vector<Painted> parts{std::move(whole)};
+  std::move(stage.insets.begin(), stage.insets.end(), std::back_inserter(parts));
+  return parts;
 }
-
-}  // namespace
 
 void draw_scene(const ScenePicture& picture, const std::function<void(Stage&)>& prepare) {
   ScenePicture grown = picture;
@@ -121,7 +133,7 @@ void draw_scene(const ScenePicture& picture, const std::function<void(Stage&)>& 
     Stage stage(grown);
     if (prepare) prepare(stage);
     const double missing = lay_out(stage);
-    if (last || !(missing > 0)) return draw_stage(stage);
+    if (last || !(missing > 0)) return write_picture(grown, painted(stage));
     grown.height = std::min(std::max(grown.height, greatest_side), grown.height + static_cast<int>(std::ceil(missing)));
   }
 }

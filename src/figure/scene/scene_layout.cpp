@@ -46,6 +46,14 @@ void aim(Stage& stage) {
   const Vec3 vertical = std::abs(view.towards[2]) > 0.999 ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
   view.right = unit(cross(vertical, view.towards));
   view.up = cross(view.towards, view.right);
+  if (!stage.picture.region) return;
+  const auto& r = *stage.picture.region;
+  Bounds seen;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3 p{r[corner & 1 ? 3 : 0], r[corner & 2 ? 4 : 1], r[corner & 4 ? 5 : 2]};
+    seen.add(Point{dot(p, view.right), dot(p, view.up)});
+  }
+  stage.window = stage.asked = seen;
 }
 
 // Bounds of all that grows with the scene, at one pixel per unit of length:
@@ -82,7 +90,7 @@ void fit(Stage& stage, const Bounds& scaled, const Box& room) {
   const double size = std::max(scaled.width(), scaled.height());
   const double width = scaled.width() > 1e-6 * size ? scaled.width() : 0, height = scaled.height() > 1e-6 * size ? scaled.height() : 0;
   const auto share = [](double pixels, double length) { return length > 0 ? pixels / length : 1e300; };
-  stage.view.scale = size > 0 ? std::min(share(room.width(), width), share(room.height(), height)) : 1;
+  const double most = stage.view.scale = size > 0 ? std::min(share(room.width(), width), share(room.height(), height)) : 1;
   for (int round = 0; round < 8 && size > 0; ++round) {
     const Bounds now = pixel_bounds(stage, scaled);
     const double over_x = now.width() - room.width(), over_y = now.height() - room.height();
@@ -90,6 +98,8 @@ void fit(Stage& stage, const Bounds& scaled, const Box& room) {
     stage.view.scale = std::max(0.2 * s, s - std::max(width > 0 ? over_x / width : -1e300, height > 0 ? over_y / height : -1e300));
     if (std::abs(stage.view.scale - s) < 1e-6 * s) break;
   }
+  constexpr double kCrowded = 0.4;
+  if (stage.view.scale < kCrowded * most && !std::exchange(stage.crowded, true)) return fit(stage, scaled, room);
   const Bounds now = pixel_bounds(stage, scaled);
   stage.view.origin = room.centre() - now.centre();
   stage.frame = now.moved(stage.view.origin);
@@ -115,6 +125,16 @@ std::array<Ticks, 2> frame_ticks(const Stage& stage) {
   return {spaced_ticks({false, w.left, w.right, f.left, f.right}, em), few_ticks(w.bottom, w.top, f.height() / (2.6 * em))};
 }
 
+// "x", "arc [mm]", "y [10⁻³ m]".
+std::string axis_text(const Stage& stage, std::size_t axis, int exponent) {
+  const std::string& unit = stage.picture.length_unit;
+  const std::string factor = exponent ? (unit.empty() ? "× " : "") + power_of_ten(exponent) : "";
+  const std::string in = factor + (factor.empty() || unit.empty() ? "" : " ") + unit;
+  return stage.picture.axis_names[axis] + (in.empty() ? "" : unit.empty() ? " " + in : " [" + in + "]");
+}
+
+bool is_long(const std::string& name, double em) { return text_extent(name, legend_size * em).x > 1.5 * em; }
+
 void draw_axes(Stage& stage) {
   const double em = stage.em, width = std::max(1.0, em / 20), tick = 0.28 * em;
   const Box f{stage.frame.left - axis_gap(stage), stage.frame.bottom - axis_gap(stage), stage.frame.right, stage.frame.top};
@@ -136,11 +156,12 @@ void draw_axes(Stage& stage) {
     c.line({f.left, y}, {f.left - (t.label.empty() ? 0.5 : 1) * tick, y}, width, axis_ink);
     c.text({f.left - tick - 0.2 * em, y}, t.label, {.size = size, .across = Align::high, .up = Align::middle, .colour = axis_ink});
   }
-  const auto with_factor = [](const char* name, int exponent) { return exponent ? std::string(name) + " × " + power_of_ten(exponent) : std::string(name); };
-  // The names stand at the far ends of the axes.
-  c.text({along.right + 0.3 * em, f.bottom}, with_factor("x", x_ticks.exponent), {.size = size, .up = Align::middle, .colour = axis_ink});
-  const double above = (stage.window ? 0.45 : stage.axes_of_bodies ? 0.5 : 0.15) * em;
-  c.text({f.left, along.top + above}, with_factor("y", y_ticks.exponent), {.size = size, .across = Align::middle, .colour = axis_ink});
+  // The names stand at the far ends of the axes, a long one below the numbers.
+  const std::string x_name = axis_text(stage, 0, x_ticks.exponent), y_name = axis_text(stage, 1, y_ticks.exponent);
+  if (is_long(x_name, em)) c.text({along.right, f.bottom - tick - 1.2 * em}, x_name, {.size = size, .across = Align::high, .up = Align::high, .colour = axis_ink});
+  else c.text({along.right + 0.3 * em, f.bottom}, x_name, {.size = size, .up = Align::middle, .colour = axis_ink});
+  const double above = (stage.window ? 0.45 : stage.axes_of_bodies ? 0.5 : is_long(y_name, em) ? 0.6 : 0.15) * em;
+  c.text({f.left - (is_long(y_name, em) ? 1.5 * em : 0), along.top + above}, y_name, {.size = size, .across = is_long(y_name, em) ? Align::low : Align::middle, .colour = axis_ink});
 }
 
 void draw_triad(Stage& stage, Point at) {
@@ -152,9 +173,9 @@ void draw_triad(Stage& stage, Point at) {
     const Point head = at + reach * Point{stage.view.right[i], stage.view.up[i]};
     const double d = length(head - at);
     if (d < 0.2 * reach) continue;
-    stage.over.arrow(at, head, std::max(1.5, em / 12), 0.5 * em, axis_ink);
+    stage.over.arrow(at, head, std::max(1.5, em / 12), 0.5 * em, axis_ink, std::max(1.0, em / 20));
     stage.over.text({head.x + 0.55 * em * (head.x - at.x) / d, head.y + 0.55 * em * (head.y - at.y) / d}, std::string(1, "xyz"[i]),
-                    {.size = legend_size * em, .across = Align::middle, .up = Align::middle});
+                    {.size = legend_size * em, .across = Align::middle, .up = Align::middle, .halo = true});
   }
 }
 
@@ -175,10 +196,11 @@ bool displacement_shows(const Stage& stage) {
 
 // What stands around the scene.
 struct Surroundings {
-  double bar = 0, inset = 0, column = 0;  // widths; the wider of the two
-  double caption = 0;                     // height
+  double bar = 0, column = 0;  // widths of the colour bar, and of the widest of what stands in its column
+  double caption = 0;          // height
   Legend legend;
-  Box room;  // for the scene
+  bool beside = false;         // the legend stands in that column, not below
+  Box room;                    // for the scene
 };
 
 FittedText title_of(const ScenePicture& p, double em) { return fitted(p.title, 1.1 * em, p.width - em, true); }
@@ -190,54 +212,85 @@ Box room_left(const Stage& stage, const Surroundings& around, bool placed) {
   const double em = stage.em;
   Box room;
   room.top = p.height - 0.7 * em - (p.title.empty() ? 0 : 1.7 * em + title_of(p, em).depth());
-  room.bottom = 0.4 * em + around.caption + around.legend.height();
+  room.bottom = 0.4 * em + around.caption + (around.beside ? 0 : around.legend.height());
   room.left = 0.8 * em;
   room.right = p.width - 0.8 * em - (around.column > 0 ? around.column + 1.0 * em : 0);
   if (!p.axes || !stage.plane) return room;
   const double widest = placed ? std::max(em, widest_label(frame_ticks(stage)[1], legend_size * em)) : em;
   room.left += widest + 0.5 * em + axis_gap(stage);
-  room.bottom += 1.5 * em + axis_gap(stage);
-  room.top -= (stage.window ? 1.4 : 1.1) * em;
-  room.right -= 1.0 * em;
+  const bool below = placed && is_long(axis_text(stage, 0, frame_ticks(stage)[0].exponent), em);
+  room.bottom += (below ? 2.6 : 1.5) * em + axis_gap(stage);
+  room.top -= (stage.window || is_long(axis_text(stage, 1, 0), em) ? 1.5 : 1.1) * em;
+  room.right -= (below ? 0.6 : 1.0) * em;
   return room;
 }
 
 // Places the scene: what stands around it depends on the place, and the place on that.
-Surroundings place_scene(Stage& stage) {
+Surroundings place_scene(Stage& stage, bool beside) {
   const ScenePicture& p = stage.picture;
   const double em = stage.em;
   const Bounds scaled = scaled_bounds(stage);
-  Surroundings around{0, inset_width(stage), 0, p.caption.empty() ? 0 : 1.5 * em + caption_of(p, em).depth(), Legend({}, em), {}};
+  Surroundings around{0, 0, p.caption.empty() ? 0 : 1.5 * em + caption_of(p, em).depth(), Legend({}, em), beside, {}};
   stage.frame = {0, 0, 1.0 * p.width, 1.0 * p.height};
   for (int round = 0; round < 3; ++round) {
     stage.deformation_shows = round > 0 && displacement_shows(stage);
-    around.bar = colour_bar_width(stage.scale, {p.field_label, p.field_unit}, em);
-    around.column = std::max(around.bar, around.inset);
-    std::vector<LegendEntry> entries;
+    stage.entries.clear();
     for (const Layer& layer : stage.layers)
-      if (layer.legend) layer.legend(stage, entries);
-    around.legend = Legend(std::move(entries), legend_size * em, p.width - 2 * em);
+      if (layer.legend) layer.legend(stage, stage.entries);
+    around.legend = Legend(stage.own_legend ? stage.entries : std::vector<LegendEntry>{}, legend_size * em, beside ? 0 : p.width - 2 * em);
+    around.bar = stage.own_bar ? colour_bar_width(stage.scale, field_of(p), em) : 0;
+    around.column = std::max({around.bar, stage.inset ? 1.0 * stage.inset->width : 0.0, beside ? around.legend.width() : 0});
     around.room = room_left(stage, around, round > 0);
     stage.window ? fit_window(stage, around.room) : fit(stage, scaled, around.room);
   }
   return around;
 }
 
-// The bar as high as the scene, within reason, and not too far from it.
+constexpr double bar_height = 9;  // em, with its name and ends
+
+// What stands in the column, one above the other.
+double column_height(const Stage& stage, const Surroundings& around) {
+  return (around.bar > 0 ? bar_height * stage.em : 0) + (stage.inset ? stage.inset->height : 0) + (around.beside ? around.legend.height() : 0);
+}
+
+// The room of the column, which goes down beside the axis.
+double room_of_column(const Stage& stage, const Surroundings& around) {
+  return around.room.top - (around.beside ? 0.4 * stage.em + around.caption : around.room.bottom);
+}
+
+// The legend stands beside a scene that is larger by that.
+Surroundings place_scene(Stage& stage) {
+  constexpr double kLarger = 1.1, kWidest = 0.45;
+  const Surroundings below = place_scene(stage, false);
+  const double scale = stage.view.scale;
+  if (!stage.own_legend || stage.entries.empty()) return below;
+  const Surroundings beside = place_scene(stage, true);
+  const bool fits = beside.column < kWidest * stage.picture.width && column_height(stage, beside) < room_of_column(stage, beside);
+  if (fits && stage.view.scale > kLarger * scale) return beside;
+  return place_scene(stage, false);
+}
+
+// The bar as high as the scene, within reason, and not too far from it; above the inset where there is one.
 void draw_column(Stage& stage, const Surroundings& around) {
   const ScenePicture& p = stage.picture;
-  const double em = stage.em, bar = around.bar, inset = around.inset;
+  const double em = stage.em;
   const Box& room = around.room;
-  const double right = p.width - 0.6 * em - 0.3 * (room.width() - stage.frame.width());
-  if (inset > 0) {
-    const double split = bar > 0 ? room.bottom + std::min(inset + 2.4 * em, 0.52 * room.height()) : room.top - 0.15 * room.height();
-    draw_colour_bar(stage.over, stage.scale, {p.field_label, p.field_unit}, em, right - around.column + 0.9 * em, split + 0.6 * em, room.top, p.width);
-    draw_inset(stage, {right - around.column, std::max(room.bottom, split - inset - 2.4 * em), right - around.column + inset, split});
-    return;
+  const double right = p.width - 0.6 * em - 0.3 * std::max(0.0, room.width() - stage.frame.width());
+  const double spare = std::max(0.0, room_of_column(stage, around) - column_height(stage, around)), left = right - around.column;
+  double bottom = room.top - room_of_column(stage, around) + (around.bar > 0 ? 0 : spare / 2);
+  if (around.beside) {
+    around.legend.draw(stage.over, {left, bottom}, false);
+    bottom += around.legend.height();
   }
-  const double height = std::clamp(stage.frame.height(), std::min(12 * em, room.height()), room.height());
-  const double middle = stage.frame.centre().y;
-  draw_colour_bar(stage.over, stage.scale, {p.field_label, p.field_unit}, em, right - bar, middle - height / 2, middle + height / 2, p.width);
+  if (stage.inset) {
+    draw_inset(stage, {right - stage.inset->width, bottom});
+    bottom += stage.inset->height;
+  }
+  if (!(around.bar > 0)) return;
+  const bool alone = !stage.inset && !around.beside;
+  const double height = alone ? std::clamp(stage.frame.height(), std::min(12 * em, room.height()), room.height()) : std::min(room.top - bottom, 22 * em);
+  const double middle = alone ? stage.frame.centre().y : room.top - height / 2;
+  draw_colour_bar(stage.over, stage.scale, field_of(p), em, {alone ? right - around.bar : left + (stage.inset ? 2 * em : 0.5 * em), middle - height / 2, p.width - 0.3 * em, middle + height / 2});
 }
 
 }  // namespace
@@ -250,14 +303,13 @@ double lay_out(Stage& stage) {
   stage.over.text({w / 2, p.height - 0.6 * em}, title_of(p, em), title_style());
   const FittedText caption = caption_of(p, em);
   stage.over.text({w / 2, 0.5 * em + caption.depth()}, caption, {.across = Align::middle});
-  around.legend.draw(stage.over, {(w - around.legend.width()) / 2, 0.3 * em + around.caption}, false);
+  if (!around.beside) around.legend.draw(stage.over, {(w - around.legend.width()) / 2, 0.3 * em + around.caption}, false);
   draw_column(stage, around);
   if (p.axes && stage.plane) draw_axes(stage);
   if (p.axes && !stage.plane) draw_triad(stage, {around.room.left + 2.2 * em, around.room.bottom + 1.6 * em});
-  if (!stage.plane) stage.frame = around.room;
-  constexpr double kBar = 10;  // em, with its name and ends
-  const double column = (around.bar > 0 ? kBar * em : 0) + (around.inset > 0 ? around.inset + 2.4 * em : 0);
-  return std::max(column, least_plot(p)) - around.room.height();
+  const double missing = std::max({column_height(stage, around) - room_of_column(stage, around), least_plot(p) - around.room.height(), stage.frame.height() - around.room.height()});
+  if (!stage.plane && !stage.window) stage.frame = around.room;
+  return missing;
 }
 
 }  // namespace dotyk::figure

@@ -55,7 +55,8 @@ Bounds pressure_bounds(const Stage& stage) {
       const Point n = stage.view.direction(node.normal);
       if (node.pressure > 0 && stage.shows(stage.at(node))) add(pressure_tip(stage, node) + pad * n, n);
     }
-    if (const std::optional<Label> label = peak_label(stage, contact, false)) {
+    // Beside the ordinates a label finds room within the frame.
+    if (const std::optional<Label> label = peak_label(stage, contact, false); label && std::abs(label->direction.y) >= std::abs(label->direction.x)) {
       const Box box = label->box.grown(pad);
       add({box.left, box.bottom}, label->direction), add({box.right, box.top}, label->direction);
     }
@@ -84,7 +85,7 @@ Box settle_pressure(Stage& stage) {
 }  // namespace
 
 void fit_window(Stage& stage, const Box& room) {
-  Box& w = stage.window.emplace(box_of(*stage.picture.window));
+  Box& w = *(stage.window = stage.asked);
   for (int round = 0; round < 20; ++round) {
     place(stage, room);
     const Box beyond = settle_pressure(stage);

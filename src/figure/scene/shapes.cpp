@@ -4,9 +4,14 @@
 
 #include <vtkActor.h>
 #include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkFeatureEdges.h>
+#include <vtkFloatArray.h>
 #include <vtkNew.h>
+#include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyDataMapper.h>
+#include <vtkPolyDataNormals.h>
 #include <vtkProperty.h>
 #include <vtkRenderer.h>
 
@@ -38,6 +43,61 @@ void add_plain(const Stage& stage, vtkRenderer* renderer, vtkPolyData* data, Col
   actor->GetProperty()->SetLineWidth(static_cast<float>(width * stage.factor));
   actor->GetProperty()->SetOpacity(opacity);
   renderer->AddActor(actor);
+}
+
+namespace {
+
+constexpr double feature_angle = 30;  // degrees between facets that make an edge
+
+// Of a mapper whose input is to be set.
+vtkSmartPointer<vtkActor> lit_actor(const Stage& stage, vtkRenderer* renderer, vtkPolyDataMapper* mapper, vtkPolyData* data) {
+  const auto actor = vtkSmartPointer<vtkActor>::New();
+  if (stage.plane) {
+    mapper->SetInputData(data);
+    actor->GetProperty()->SetLighting(false);
+  } else {
+    vtkNew<vtkPolyDataNormals> normals;
+    normals->SetInputData(data);
+    normals->SetFeatureAngle(feature_angle);
+    mapper->SetInputConnection(normals->GetOutputPort());
+    // Mostly unshaded, so that colours remain those of the bar.
+    actor->GetProperty()->SetAmbient(0.68);
+    actor->GetProperty()->SetDiffuse(0.38);
+    actor->GetProperty()->SetSpecular(0);
+  }
+  actor->SetMapper(mapper);
+  renderer->AddActor(actor);
+  return actor;
+}
+
+}  // namespace
+
+void add_coloured(const Stage& stage, vtkRenderer* renderer, vtkPolyData* data, const std::vector<double>& values, bool on_polygons) {
+  vtkNew<vtkPolyDataMapper> mapper;
+  vtkNew<vtkFloatArray> scalars;
+  for (const double value : values) scalars->InsertNextValue(static_cast<float>(value));
+  if (on_polygons) data->GetCellData()->SetScalars(scalars), mapper->SetScalarModeToUseCellData();
+  else data->GetPointData()->SetScalars(scalars), mapper->InterpolateScalarsBeforeMappingOn();
+  mapper->SetLookupTable(lookup_table(stage.scale));
+  mapper->UseLookupTableScalarRangeOn();
+  lit_actor(stage, renderer, mapper, data);
+}
+
+void add_surface(const Stage& stage, vtkRenderer* renderer, vtkPolyData* data, Colour colour) {
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->ScalarVisibilityOff();
+  lit_actor(stage, renderer, mapper, data)->GetProperty()->SetColor(colour.r / 255.0, colour.g / 255.0, colour.b / 255.0);
+}
+
+void add_features(const Stage& stage, vtkRenderer* renderer, vtkPolyData* data, Colour colour, double width) {
+  vtkNew<vtkFeatureEdges> features;
+  features->SetInputData(data);
+  features->SetFeatureAngle(feature_angle);
+  features->ColoringOff();
+  features->ManifoldEdgesOff();
+  features->NonManifoldEdgesOff();
+  features->Update();
+  add_plain(stage, renderer, features->GetOutput(), colour, width);
 }
 
 void Shapes::show(vtkRenderer* renderer, Colour colour, double width, double opacity) const {

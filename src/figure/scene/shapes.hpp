@@ -14,6 +14,17 @@ vtkSmartPointer<vtkPolyData> poly_data(const std::vector<Vec3>& points, const Fa
 // Adds unlit lines or faces in one colour; `width` in pixels of the picture.
 void add_plain(const Stage& stage, vtkRenderer* renderer, vtkPolyData* data, Colour colour, double width = 1, double opacity = 1);
 
+// Adds a surface with the field's values at its points, or on its polygons, in the colours of the stage.
+void add_coloured(const Stage& stage, vtkRenderer* renderer, vtkPolyData* data, const std::vector<double>& values, bool on_polygons = false);
+// Adds one in one colour. Surfaces in space are lit.
+void add_surface(const Stage& stage, vtkRenderer* renderer, vtkPolyData* data, Colour colour);
+// Adds the edges at which a surface ends or turns.
+void add_features(const Stage& stage, vtkRenderer* renderer, vtkPolyData* data, Colour colour, double width);
+
+constexpr Colour outline_colour{40, 40, 40};
+// Of the k-th body where it shows no field.
+Colour plain_colour(std::size_t k);
+
 // Lines or polygons, corner by corner.
 class Shapes {
 public:

@@ -11,6 +11,7 @@
 #include "figure/canvas/colour_map.hpp"
 #include "figure/canvas/geometry.hpp"
 #include "figure/canvas/legend.hpp"
+#include "figure/canvas/paper.hpp"
 
 class vtkRenderer;
 
@@ -29,9 +30,11 @@ struct Layer {
 };
 
 struct Stage {
-  explicit Stage(const ScenePicture& picture);
+  // corner: the lower left pixel of the picture on its sheet.
+  explicit Stage(const ScenePicture& picture, Point corner = {});
 
   const ScenePicture& picture;
+  Point corner;
   int factor;                 // rendered pixels per pixel
   bool plane;                 // 2-D
   double em;                  // height of letters, pixels
@@ -39,20 +42,32 @@ struct Stage {
   View view;
   Box frame;                  // pixels within which the scene is drawn
   std::vector<std::array<Vec3, 2>> body_boxes;  // least and greatest reference corner of each body
-  std::optional<Box> window;  // what the figure shows, where that is not all; at least the picture's
+  std::optional<Box> asked, window;  // what the figure shows, across and up, where that is not all: as the picture says; and drawn, which is at least that
   double window_strip = 0;    // pixels of the greatest pressure in a window
   double greatest_pressure = 0, greatest_shear = 0, greatest_load = 0;  // the first two of what is seen
   bool deformation_shows = false;
+  bool crowded = false;  // labels would take more room than they leave to the scene: they are within it
   Canvas under, over;         // below and above the bodies
   std::vector<Layer> layers;
+  bool own_bar = true, own_legend = true;  // else they stand beside, for several scenes
+  std::vector<LegendEntry> entries;        // of the legend
+  std::optional<ScenePicture> inset;       // a small picture within this one
+  std::vector<Painted> insets;             // as it is painted
   bool axes_of_bodies = false;  // plane: axes along the bodies, not all that stands around them
 
   double strip_height() const;                    // pixels of the greatest pressure
   bool pressures() const { return picture.pressure != PressureStyle::none; }
+  // A map of a contact.
+  bool map() const { return plane && !picture.contacts.empty() && picture.contacts.front().nodes_per_facet > 2; }
+  // In space: a field is shown on the surfaces of contacts.
+  bool colours_contacts() const { return !picture.contacts.empty() && !picture.contacts.front().values.empty(); }
   bool strips() const { return plane && pressures() && picture.pressure != PressureStyle::arrows; }  // else arrows
   // Where a contact's node, a support or a load is drawn: in space, and on the picture.
   template <class Thing>
   Vec3 place(const Thing& thing) const { return plus(thing.position, thing.displacement, picture.deformation); }
+  // Is it on the side of the picture's cut that is drawn?
+  template <class Thing>
+  bool stays(const Thing& thing) const { return !picture.cut || picture.cut->beyond(place(thing)) <= 1e-9; }
   template <class Thing>
   Point at(const Thing& thing) const { return view.flat(place(thing)); }
   template <class Thing>
@@ -86,9 +101,12 @@ std::vector<std::size_t> spread(const std::vector<Point>& at, const std::vector<
 
 // Lays out, draws, and writes the file. The picture becomes higher where it lacks height. `prepare` is called for each stage that is made.
 void draw_scene(const ScenePicture& picture, const std::function<void(Stage&)>& prepare = {});
+// Draws a stage that is laid out.
+std::vector<Painted> painted(Stage& stage);
 
 // Chooses the view and the frame, and reserves room for title, legend, axes
-// and colour bar; draws these. Returns how many pixels the picture's height lacks for a scene and a colour bar that are legible.
+// and colour bar; draws these. Returns how many pixels the picture's height lacks for a scene and a colour bar that are legible;
+// less than 0: so many it does not need.
 double lay_out(Stage& stage);
 
 // Fits the picture's window into the room. The greatest pressure comes to a fifth of its height, less where it would not fit; from
@@ -104,16 +122,27 @@ std::vector<Point> obstacle_line(const View& view, const RigidPicture& rigid);
 Layer body_layer();
 // The outline of a body in the plane, two nodes an edge.
 std::vector<int> outline_edges(const BodyPicture& body);
+// Leaves out what is beyond the picture's cut, of all that is in the renderer, and adds the faces of the cut.
+void cut_bodies(const Stage& stage, vtkRenderer* renderer);
 // Status, pressure and shear on the contact boundary.
 Layer contact_layer();
+// Lines of equal values, at the labelled ticks of the colour bar; labels only where `free` is true of their box.
+void draw_isolines(Stage& stage, const std::function<bool(const Box&)>& free);
+Layer isoline_layer();
+// Trajectories of the principal stresses.
+Layer trajectory_layer();
+// Texts at points, framed parts.
+Layer note_layer();
 // Symbols of supports; arrows of loads.
 Layer support_layer();
 Layer load_layer();
 
-// A plan of the contact of a scene in space: the width it wants (0: none),
-// and its drawing in the room given to it.
-double inset_width(const Stage& stage);
-void draw_inset(Stage& stage, const Box& room);
+// A map of the contact that carries most of a scene in space, with its size; and its drawing, with its lower left pixel there.
+std::optional<ScenePicture> inset_of(const ScenePicture& picture);
+void draw_inset(Stage& stage, Point corner);
+// A contact on its map; the sample of a status in its legend.
+void draw_contact_map(Stage& stage, const ContactPicture& contact);
+LegendEntry map_status_entry(const Stage& stage, Status status);
 // Arrows of the shear at some of the nodes that rub, those that `choice` takes of their places; where a node's arrow begins and ends.
 void draw_shear(Stage& stage, const ContactPicture& contact, const std::vector<Point>& at,
                 const std::function<std::vector<std::size_t>(const std::vector<Point>& places)>& choice,

@@ -1,4 +1,5 @@
 // Symbols of supports and arrows of loads.
+#include "figure/canvas/axes.hpp"
 #include "figure/scene/stage.hpp"
 
 namespace dotyk::figure {
@@ -79,7 +80,7 @@ constexpr std::array kinds{Kind{SupportKind::fix, Marker::triangle, "fixed"}, Ki
 std::vector<SupportSymbol> symbols_of(const Stage& stage, SupportKind kind) {
   std::vector<SupportSymbol> out;
   for (const SupportSymbol& s : stage.picture.supports)
-    if (s.kind == kind && (stage.plane || dot(s.normal, stage.view.towards) > 0)) out.push_back(s);
+    if (s.kind == kind && (stage.plane || (dot(s.normal, stage.view.towards) > 0 && stage.stays(s)))) out.push_back(s);
   return out;
 }
 
@@ -148,6 +149,7 @@ void draw_loads(Stage& stage, vtkRenderer*) {
   std::vector<Segment> drawn;
   for (const std::size_t i : stage.spaced(stage.at(stage.picture.loads), 0.95 * stage.em)) {
     const Segment arrow = load_arrow(stage, stage.picture.loads[i]);
+    if (!stage.stays(stage.picture.loads[i])) continue;
     if (length(arrow[1] - arrow[0]) < 0.1 * stage.em) continue;
     // Along a boundary that is loaded along itself arrows would lie on each other.
     if (std::any_of(drawn.begin(), drawn.end(), [&](const Segment& other) { return distance(arrow, other) < 0.6 * stage.em; })) continue;
@@ -160,7 +162,8 @@ void load_legend(const Stage& stage, std::vector<LegendEntry>& out) {
   const auto& loads = stage.picture.loads;
   const bool seen = std::any_of(loads.begin(), loads.end(), [&](const LoadArrow& load) { return stage.shows(stage.at(load)); });
   if (!seen || !(stage.greatest_load > 0)) return;
-  out.push_back({"load, at most " + number(stage.greatest_load), [em = stage.em](Canvas& c, const Box& b) {
+  const std::string& unit = stage.picture.load_unit;
+  out.push_back({"load, at most " + number(stage.greatest_load) + (unit.empty() ? "" : " " + unit), [em = stage.em](Canvas& c, const Box& b) {
                    c.arrow(b.midline()[0], b.midline()[1], std::max(1.5, em / 11), 0.6 * em, load_colour);
                  }});
 }

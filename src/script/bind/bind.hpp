@@ -33,6 +33,7 @@ void bind_ranks(Library& library);
 void bind_solver(Library& library);
 void bind_solution(Library& library);
 void bind_figure(Library& library);
+void bind_picture(Library& library);  // by bind_figure
 void bind_program(Library& library);
 void bind_fclib(Library& library);
 void bind_law(Library& library);

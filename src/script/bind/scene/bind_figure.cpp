@@ -1,42 +1,13 @@
 #include <cstdio>
 
-#include "figure/compose/compose.hpp"
 #include "script/bind/bind.hpp"
 #include "script/bind/figure_keys.hpp"
 
 namespace dotyk::script {
 namespace {
 
-using scene::Solution;
-
-using figure::PressureStyle;
 using figure::SeriesPicture;
 using figure::SeriesStyle;
-
-figure::SceneOptions scene_options(const Call& call, int dimension) {
-  figure::SceneOptions options;
-  options.obstacle = dimension == 2;
-  call.fill(options);
-  if (call.is("deform", LUA_TNUMBER)) {
-    const double factor = call.number("deform");
-    if (factor < 0) throw InputError(text("deform is ", factor, "; it must be zero, positive or \"auto\""));
-    options.deform = factor;
-  } else if (!call.has("deform") && call.has("window")) {
-    options.deform = 1;  // the window is in coordinates of the deformed picture
-  }
-  return options;
-}
-
-std::string render_scene(Call& call) {
-  const auto s = call.self<Solution>();
-  figure::ScenePicture picture = figure::compose(*s, scene_options(call, s->scene().dimension()));
-  call.fill(picture);
-  picture.pressure_unit = picture.field_unit;
-  picture.edges = read_edges(call, figure::MeshEdges::automatic);
-  if (call.has("view") && s->scene().dimension() == 2) throw InputError("'view' is for scenes in space; this one is 2-D (try 'window')");
-  picture.view_from = read_direction(call, "view");
-  return draw(call, std::move(picture));
-}
 
 std::vector<Key> series_keys() {
   using figure::Status;
@@ -191,57 +162,13 @@ std::vector<Key> figure_keys() {
 }  // namespace
 
 void bind_figure(Library& library) {
-  using Field = figure::FieldChoice;
-  using Options = figure::SceneOptions;
-  using Picture = figure::ScenePicture;
   library.function({.name = "dotyk.chart",
                     .help = "Draws curves into a file, in one chart or in panels one below the other (or in columns), and returns its name.",
                     .example = "dotyk.chart{ file = \"a.png\", x = \"h\", y = \"error\", log = \"xy\", slopes = { 1, 2 },\n"
                                "  series = { { name = \"P1\", x = { 1, 0.5 }, y = { 0.1, 0.03 } } } }",
                     .arguments = {key::table(figure_keys())},
                     .run = chart});
-  library.extend<Solution>().method(
-      {.name = "solution:render",
-       .help = "Draws the deformed bodies coloured by a field, with contact status and pressure, into a file and "
-               "returns its name. A deformation factor magnifies the gap and the motion of "
-               "rigid obstacles as well, so that what touches is seen to touch.",
-       .example = "s:render{ file = \"a.png\", field = \"von_mises\", deform = 10, size = {1200, 800} }",
-       .arguments = {key::table(joined(
-           {picture_key(),
-            key::choice<Field>("field", {{"none", Field::none}, {"displacement", Field::displacement}, {"ux", Field::ux}, {"uy", Field::uy}, {"uz", Field::uz},
-                                         {"von_mises", Field::von_mises}, {"xx", Field::xx}, {"yy", Field::yy}, {"zz", Field::zz}, {"yz", Field::yz},
-                                         {"xz", Field::xz}, {"xy", Field::xy}}, "what the colours show").into(&Options::field),
-            key::either("deform", {key::number("", ""), key::choice("", {"auto"}, "")},
-                        "factor on the displacement; auto: such that it can be seen").otherwise("\"auto\", with a window 1"),
-            key::boolean("contact", "contact status, pressure and obstacles").into(&Options::contact),
-            key::boolean("supports", "symbols at supported nodes").into(&Options::supports),
-            key::boolean("loads", "arrows for loads").into(&Options::loads),
-            key::boolean("obstacle", "rigid obstacles").otherwise("true in the plane, false in space").into(&Options::obstacle),
-            key::choice<PressureStyle>("pressure", {{"auto", PressureStyle::automatic}, {"strip", PressureStyle::strip}, {"arrows", PressureStyle::arrows},
-                                                    {"none", PressureStyle::none}}, "how contact pressure is drawn").into(&Picture::pressure),
-            key::boolean("shear", "arrows of the friction on the first part of each contact, where there is any: in the plane "
-                                  "beside the contact line, in space on the plan of the contact").into(&Picture::shear),
-            key::boolean("edges", "edges of the cells").otherwise("while they can be told apart"),
-            key::vector("range", "least and greatest value of the colours").count(2).otherwise("the field's").into(&Picture::field_range),
-            key::vector("window", "in the plane: {x0, y0, x1, y1} of the deformed picture, all that is shown; colours and "
-                                  "pressure are scaled to it").count(4).otherwise("all").into(&Picture::window),
-            key::vector("view", "direction towards the eye, in space").count(3),
-            title_key(),
-            key::string("unit", "unit of the field and the pressure, \"MPa\"").otherwise("none").into(&Picture::field_unit)},
-           size_keys("{1200, 800}")))},
-       .run = render_scene})
-      .method(
-      {.name = "solution:write",
-       .help = "Writes the whole solution for ParaView and returns the file's name: all bodies at rest, their cells "
-               "numbered by \"body\", with displacement, stress, von_mises and, where there is contact, "
-               "contact_pressure, contact_gap and contact_status (0 open, 1 closed, 2 stick, 3 slip, -1 no contact) "
-               "at the nodes; of contacts whose nodes do not match at the first part's alone.",
-       .example = "s:write \"a.vtu\"",
-       .arguments = {key::file("file", "where to; ends in .vtu, its folder must exist").written().required()},
-       .run = [](Call& call) {
-         figure::write(figure::compose_grid(*call.self<Solution>(), call.text("file")));
-         return call.text("file");
-       }});
+  bind_picture(library);
 }
 
 }  // namespace dotyk::script
