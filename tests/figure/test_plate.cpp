@@ -167,8 +167,7 @@ TEST_CASE("contour lines of a linear field stand at equal distances") {
   }
   // Every twentieth; the last is the outline, the one before it pale on yellow or not.
   REQUIRE(lines.size() >= 18);
-  const double step = lines[1] - lines[0];
-  CHECK(step == doctest::Approx((lines[18 - 1] - lines[0]) / 17).epsilon(0.03));
+  const double step = (lines[18 - 1] - lines[0]) / 17;
   for (std::size_t i = 1; i < 18; ++i) CHECK(std::abs(lines[i] - lines[i - 1] - step) <= 1);
 }
 

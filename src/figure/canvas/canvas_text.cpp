@@ -131,7 +131,8 @@ FittedText fitted(const std::string& text, double size, double pixels, bool bold
     out.lines.push_back(line);
     rest.erase(0, std::min(rest.find_first_not_of(" \n", line.size()), rest.size()));
   }
-  out.lines.push_back(shortened(rest, out.size, pixels - text_extent(end, out.size, bold).x, bold) + end);
+  const bool fits = text_extent(rest + end, out.size, bold).x <= pixels + 1e-6 * size;
+  out.lines.push_back((fits ? rest : shortened(rest, out.size, pixels - text_extent(end, out.size, bold).x, bold)) + end);
   return out;
 }
 

@@ -127,7 +127,8 @@ void check_space(const ScenePicture& p) {
 
 static void check_scene(const ScenePicture& p) {
   check_text("'title'", p.title);
-  for (const std::string* unit : {&p.field_unit, &p.pressure_unit, &p.length_unit, &p.load_unit}) check_text("a unit", *unit);
+  for (const std::string* unit : {&p.field_unit, &p.pressure_unit}) check_text("'unit'", *unit);
+  for (const std::string* unit : {&p.length_unit, &p.load_unit}) check_text("'units'", *unit);
   require(!p.bodies.empty(), "the picture " + p.file + " shows no body");
   require(std::isfinite(p.deformation), "the deformation factor is not finite");
   require(!p.field_range || (finite(*p.field_range) && (*p.field_range)[0] <= (*p.field_range)[1]),

@@ -109,9 +109,9 @@ void draw_pressure(Stage& stage, const ContactPicture& contact, const std::vecto
 void draw_contact_map(Stage& stage, const ContactPicture& contact) {
   const std::vector<Point> at = stage.at(contact.nodes);
   const bool field = stage.scale.shown;
-  if (!field) fill_statuses(stage, contact, at), draw_pressure(stage, contact, at);
+  if (!field) fill_statuses(stage, contact, at);
   for (const auto& [a, b] : pairs(rim({contact.facets, contact.nodes_per_facet}))) stage.over.line(at[a], at[b], std::max(1.2, stage.em / 18), axes_ink);
-  if (field) draw_borders(stage, contact, at);
+  field ? draw_borders(stage, contact, at) : draw_pressure(stage, contact, at);
   // From the nodes, where there are markers.
   draw_shear(stage, contact, at, [&](const std::vector<Point>& places) { return spread(places, places, map_spacing * stage.em); }, [&](std::size_t i) {
     const Vec3& shear = contact.nodes[i].shear;

@@ -133,7 +133,7 @@ void draw_scene(const ScenePicture& picture, const std::function<void(Stage&)>& 
     Stage stage(grown);
     if (prepare) prepare(stage);
     const double missing = lay_out(stage);
-    if (last || !(missing > 0)) return write_picture(grown, painted(stage));
+    if (last || !(missing > 1)) return write_picture(grown, painted(stage));
     grown.height = std::min(std::max(grown.height, greatest_side), grown.height + static_cast<int>(std::ceil(missing)));
   }
 }
