@@ -63,7 +63,7 @@ private:
       room_.left = std::max(margin_left(), frame_.least.left);
       room_.right = picture_.width - std::max(margin_right(), frame_.least.right);
       room_.bottom = std::max(margin_below(), frame_.least.below);
-      room_.top = picture_.height - 0.9 * em_ - (picture_.title.empty() ? 0 : 1.9 * em_) - legend_height - strip_height();
+      room_.top = picture_.height - 0.9 * em_ - (picture_.title.empty() ? 0 : 1.9 * em_ + beyond_two(title())) - legend_height - strip_height();
       room_.top = std::min(room_.top, picture_.height - frame_.least.above);
       if (frame_.alone && (equal() || picture_.polar)) make_square();
     }
@@ -97,18 +97,18 @@ private:
   double margin_left() const {
     const Ticks& ticks = axes_.left.y_ticks;
     const double widest = std::max(widest_label(ticks, em_), failed_.empty() ? 0 : text_extent("converged", small_text * em_).x);
-    return 0.6 * em_ + (picture_.y_label.empty() && !ticks.exponent ? 0 : name_depth * em_) + widest + 0.5 * em_;
+    return 0.6 * em_ + (picture_.y_label.empty() && !ticks.exponent ? 0 : name_depth * em_ + beyond_two(y_name(axes_.left))) + widest + 0.5 * em_;
   }
 
   double margin_right() const {
-    if (right_) return 0.6 * em_ + (picture_.y_right_label.empty() && !axes_.right.y_ticks.exponent ? 0 : name_depth * em_) + widest_label(axes_.right.y_ticks, em_) + 0.5 * em_;
+    if (right_) return 0.6 * em_ + (picture_.y_right_label.empty() && !axes_.right.y_ticks.exponent ? 0 : name_depth * em_ + beyond_two(y_name(axes_.right))) + widest_label(axes_.right.y_ticks, em_) + 0.5 * em_;
     const double bar = picture_.map ? map_bar_width(*picture_.map, em_) : 0;
     return 0.6 * em_ + std::max(bar, picture_.categories.empty() ? widest_label(axes_.left.x_ticks, em_) / 2 : 0);
   }
 
   double margin_below() const {
     if (!frame_.x_labels) return 0.2 * em_;
-    const double name = picture_.x_label.empty() && !axes_.left.x_ticks.exponent ? 0 : 1.35 * em_;
+    const double name = picture_.x_label.empty() && !axes_.left.x_ticks.exponent ? 0 : 1.35 * em_ + beyond_two(x_name());
     if (picture_.polar) return 0.6 * em_ + name;
     return 0.4 * em_ + name + (picture_.categories.empty() ? labels_depth * em_ : 0.6 * em_ + category_names().height());
   }
@@ -219,19 +219,29 @@ private:
       if (right_) draw_ticks(canvas_, axes_.right, Side::right, true, right_colour(picture_));
     }
     draw_names();
-    const FittedText title = fitted(picture_.title, 1.1 * em_, picture_.width - em_, true);
-    canvas_.text({within(title, true), picture_.height - 0.6 * em_}, title, title_style());
+    const FittedText above = title();
+    canvas_.text({within(above, true), picture_.height - 0.6 * em_}, above, title_style());
   }
 
-  // Lines one below the other need no more room than one: their letters are half as high.
+  FittedText title() const { return fitted(picture_.title, 1.1 * em_, picture_.width - em_, true); }
+  FittedText x_name() const { return fitted(frame_.x_labels ? picture_.x_label : "", em_, picture_.width - em_, false, frame_.x_labels ? axis_name("", axes_.left.x_ticks) : ""); }
+  FittedText y_name(const Axes& axes) const {
+    const double room = room_.height() > 1 ? room_.height() : picture_.height;
+    return fitted(&axes == &axes_.left ? picture_.y_label : picture_.y_right_label, em_, room, false, axis_name("", axes.y_ticks));
+  }
+
+  // Two lines need no more room than one: their letters are half as high. A third does.
+  static double beyond_two(const FittedText& text) {
+    const auto lines = static_cast<double>(text.lines.size());
+    return lines > 2 ? (lines - 2) / (lines - 1) * text.depth() : 0;
+  }
+
   void draw_names() {
-    const Axes& axes = axes_.left;
-    const FittedText x = fitted(frame_.x_labels ? picture_.x_label : "", em_, picture_.width - em_, false, frame_.x_labels ? axis_name("", axes.x_ticks) : "");
+    const FittedText x = x_name();
     canvas_.text({within(x), 0.4 * em_ + x.depth()}, x, {.across = Align::middle});
-    const FittedText y = fitted(picture_.y_label, em_, room_.height(), false, axis_name("", axes.y_ticks));
-    canvas_.text({indent_ + 0.45 * em_, room_.centre().y}, y, {.up = Align::middle, .upright = true});
+    canvas_.text({indent_ + 0.45 * em_, room_.centre().y}, y_name(axes_.left), {.up = Align::middle, .upright = true});
     if (!right_) return;
-    const FittedText right = fitted(picture_.y_right_label, em_, room_.height(), false, axis_name("", axes_.right.y_ticks));
+    const FittedText right = y_name(axes_.right);
     const Colour colour = right_colour(picture_);
     TextStyle style{.across = Align::high, .up = Align::middle, .upright = true};
     if (!(colour == axes_ink)) style.colour = colour;

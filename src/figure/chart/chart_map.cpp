@@ -115,6 +115,7 @@ double map_bar_width(const ChartMap& map, double em) {
 }
 
 void draw_map_bar(Canvas& canvas, const ChartMap& map, const Axes& axes, double left, double width) {
+  if (map_bar_width(map, axes.em) == 0) return;
   draw_colour_bar(canvas, scale_of(map), {map.label, map.unit}, axes.em, {left + bar_gap * axes.em, axes.room.bottom, width - 0.3 * axes.em, axes.room.top});
 }
 
