@@ -108,7 +108,7 @@ private:
 
   double margin_below() const {
     if (!frame_.x_labels) return 0.2 * em_;
-    const double name = picture_.x_label.empty() && !axes_.left.x_ticks.exponent ? 0 : 1.35 * em_ + beyond_two(x_name());
+    const double name = picture_.x_label.empty() && !axes_.left.x_ticks.exponent ? 0 : 1.35 * em_ + beyond_two(x_name()) + (x_name().lines.size() > 1 ? 0.3 * em_ : 0);
     if (picture_.polar) return 0.6 * em_ + name;
     return 0.4 * em_ + name + (picture_.categories.empty() ? labels_depth * em_ : 0.6 * em_ + category_names().height());
   }
