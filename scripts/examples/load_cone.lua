@@ -36,9 +36,15 @@ local cases <const> = {
 }
 
 -- 3. The sweep.
-local wrong, series, all_refused = 0, {}, { {}, {} }
+local wrong, series, all_refused = 0, {}, { name = "refused", reference = true, x = {}, y = {} }
 for row, case in ipairs(cases) do
-  local carried, refused, limits = { {}, {} }, { {}, {} }, {}
+  -- One ring a case: what is refused is a gap in what is carried, and the other way round.
+  local count, limits, ring = 0, {}, { name = ("%d: %s"):format(row, case.name), x = {}, y = {}, style = case.from == case.to and "points" or "line" }
+  local function draw(angle, carried)
+    for _, into in ipairs{ ring, all_refused } do
+      into.x[#into.x + 1], into.y[#into.y + 1] = angle, carried == (into == ring) and row or 0/0
+    end
+  end
   for angle = 0, 360 - step, step do
     local verdict = square(angle, case.planes, case.friction):balance()
     local expected = angle >= case.from - 1e-9 and angle <= case.to + 1e-9 or (case.to == 360 and angle == 0)
@@ -47,15 +53,13 @@ for row, case in ipairs(cases) do
       print(("wrong: %s at %g°: %s"):format(case.name, angle, verdict.verdict))
     end
     if verdict.solvable and verdict.limit then limits[#limits + 1] = ("%g°"):format(angle) end
-    local into = verdict.solvable and carried or refused
-    local radius = 0.4 + 0.2 * row -- one ring a case
-    into[1][#into[1] + 1] = radius * math.cos(math.rad(angle))
-    into[2][#into[2] + 1] = radius * math.sin(math.rad(angle))
+    if verdict.solvable then count = count + 1 end
+    draw(angle, verdict.solvable)
   end
-  print(("%-20s carries %d of %d directions; limit cases at %s"):format(
-    case.name, #carried[1], #carried[1] + #refused[1], table.concat(limits, ", ")))
-  series[#series + 1] = { name = case.name .. ": carried", x = carried[1], y = carried[2], style = "points" }
-  for k = 1, 2 do table.move(refused[k], 1, #refused[k], #all_refused[k] + 1, all_refused[k]) end
+  print(("%-20s carries %d of %d directions; limit cases at %s"):format(case.name, count, #ring.x, table.concat(limits, ", ")))
+  draw(360, ring.y[1] == row)
+  all_refused.x[#all_refused.x + 1], all_refused.y[#all_refused.y + 1] = 0, 0/0 -- rings are not joined
+  series[row] = ring
 end
 
 -- 4. On the edge, to either side: within 1e-6 of it a load is a limit case, farther away it is none.
@@ -93,38 +97,34 @@ for _, longitude in ipairs{ 0, 30, 90, 200 } do
   end
 end
 local count, spherical = 0, 0
-local sphere <const> = { carried = { {}, {} }, refused = { {}, {} }, rubs = { {}, {} } }
-for latitude = 0, 90, 5 * step do
+local sphere <const> = { x = {}, y = {}, values = {}, names = { "refused", "carried by three planes", "carried by a floor, μ = 0.4", "carried by both" } }
+for down = 0, 90, 5 * step do -- the angle from straight down
+  local row <const> = {}
   for longitude = 0, 360 - 5 * step, 5 * step do
-    local a, b = math.rad(latitude), math.rad(longitude)
+    local a, b = math.rad(90 - down), math.rad(longitude)
     local x, y, z = math.cos(a) * math.cos(b), math.cos(a) * math.sin(b), -math.sin(a)
     local verdict = cube(x, y, z):balance()
     local expected = x < 1e-12 and y < 1e-12 and z < 1e-12
     local rubs = cube(x, y, z, dotyk.friction.coulomb(mu)):balance()
     if rubs.solvable ~= (math.sqrt(x^2 + y^2) < -mu * z) then
       spherical = spherical + 1
-      print(("wrong: with friction at latitude %g, longitude %g: %s"):format(latitude, longitude, rubs.verdict))
+      print(("wrong: with friction at %g from straight down, longitude %g: %s"):format(down, longitude, rubs.verdict))
     end
-    if rubs.solvable then sphere.rubs[1][#sphere.rubs[1] + 1], sphere.rubs[2][#sphere.rubs[2] + 1] = x, y end
-    local into = sphere[verdict.solvable and "carried" or "refused"]
-    into[1][#into[1] + 1], into[2][#into[2] + 1] = x, y
-    count = count + 1
     if verdict.solvable ~= expected then
       spherical = spherical + 1
-      print(("wrong: in space at latitude %g, longitude %g: %s"):format(latitude, longitude, verdict.verdict))
+      print(("wrong: in space at %g from straight down, longitude %g: %s"):format(down, longitude, verdict.verdict))
     end
+    count = count + 1
+    row[#row + 1] = 1 + (verdict.solvable and 1 or 0) + (rubs.solvable and 2 or 0)
+    sphere.x[#row] = longitude
   end
+  sphere.y[#sphere.y + 1], sphere.values[#sphere.y + 1] = down, row
 end
 print(("space: %d directions of the lower hemisphere, %d wrong"):format(count, spherical))
 
-table.insert(series, 1, { name = "refused", x = all_refused[1], y = all_refused[2], style = "points" })
-local around <const>, ball <const> = { -1.3, 1.3 }, { -1.1, 1.1 } -- one range on both axes: circles are round
-dotyk.chart{ file = "images/load_cone.png", x = "x component of the load's direction (times the ring)",
-             y = "y component", series = series, x_range = around, y_range = around, size = { 900, 960 } }
-dotyk.chart{ file = "images/load_hemisphere.png", x = "x component of the load's direction", y = "y component",
-             x_range = ball, y_range = ball, size = { 820, 840 },
-             series = { { name = "refused", x = sphere.refused[1], y = sphere.refused[2], style = "points" },
-                        { name = "carried by three planes", x = sphere.carried[1], y = sphere.carried[2], style = "points" },
-                        { name = "carried by a floor with friction 0.4", x = sphere.rubs[1], y = sphere.rubs[2], style = "points" } } }
+table.insert(series, 1, all_refused)
+dotyk.chart{ file = "images/load_cone.png", polar = true, x = "direction of the load", y = "case", series = series, size = { 1000, 1150 } }
+dotyk.chart{ file = "images/load_hemisphere.png", polar = true, x = "longitude of the load's direction", y = "degrees from straight down",
+             map = sphere, size = { 1000, 1100 } }
 print "images/load_cone.png, images/load_hemisphere.png"
 if wrong + spherical > 0 then error(wrong + spherical .. " verdicts are wrong") end

@@ -56,7 +56,7 @@ print "element  cells  iterations   lifted by nodes   extrapolated   eight apart
 local chart <const>, at <const> = {}, {}
 for _, element in ipairs{ "morley", "hct" } do
   local nodes <const>, extrapolated <const> = { x = {}, y = {} }, { x = {}, y = {} }
-  nodes.name, extrapolated.name = element == "hct" and "HCT" or "Morley", "by nodes"
+  nodes.name, extrapolated.name = element == "hct" and "HCT" or "Morley", element == "hct" and "HCT, by nodes" or "Morley, by nodes"
   for _, part in ipairs{ 2, 3, 4, 6, 8 } do
     local n <const> = finest * part // 8
     local s <const> = solve(n, element)
@@ -84,7 +84,7 @@ print(("lifted length: Morley %.5f, HCT %.5f, apart by %.2f %%; deflection of th
 assert(apart < 0.005 * math.max(1, 128 / finest)) -- 0.5 % from 128 cells on
 for _, e in pairs(at) do assert(math.abs(e.length / e.before - 1) < 0.01) end -- and it converges
 
-dotyk.chart{ file = "images/plate_corners_length.png", title = "From a corner to where the plate touches", x = "length of a cell",
+dotyk.chart{ file = "images/plate_corners_length.png", title = "From a corner to where it touches", x = "length of a cell",
   y = "lifted length", series = chart }
 solve(32, "hct"):render{ file = "images/plate_corners.png", title = "A plate laid on four edges lifts its corners", eye = { 1, -1.7, 1.1 }, deform = 60 }
 solve(64, "morley"):render{ file = "images/plate_corners_plan.png", view = "plan", title = "Reactions of edges that do not pull" }

@@ -296,10 +296,10 @@ local function over_mean(r)
 end
 local alone <const> = optimise("free", cells, { splines = true })
 dotyk.chart{ file = "images/roller.png", size = { 1000, 1250 }, panels = {
-  { x = "x [mm]", y = "contact pressure [MPa]", series = {
+  { x = "x [mm]", y = "contact pressure [MPa]", y_break = { 2500, 8500 }, series = {
     series("straight", "line", pressures(free.straight)), series("optimised", "line", pressures(free.best)),
     series("Lundberg's, fitted", "line", pressures(free.rounded)) } },
-  { x = "x/a", y = "pressure / mean", x_range = { 0.9, 1.002 }, y_range = { 0.8, 1.2 }, series = {
+  { x = "x/a", y = "pressure / mean", x_range = { 0.9, 1.002 }, y_range = { 0.79, 1.21 }, series = {
     series(nil, "line", over_mean(free.straight)), series("optimised", "line", over_mean(free.best)),
     series("Lundberg's, fitted", "line", over_mean(free.rounded)), series("optimised, splines alone", "line", over_mean(alone)) } },
   { x = "x [mm]", y = "drop of the profile [µm]", series = {

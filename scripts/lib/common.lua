@@ -15,8 +15,8 @@ function common.boundary(low, high, holds, width)
   return math.sqrt(low * high)
 end
 
--- Points of a map, gathered by what happened there: map:add("converged", x, y); map:series() for dotyk.chart,
--- in the order of `outcomes` and without those that never happened.
+-- Points of a map, gathered by what happened there: map:add("converged", x, y). For dotyk.chart map:series(), symbols in the
+-- order of `outcomes` without those that never happened, or map:cells(), where the points are those of a grid.
 function common.map(outcomes)
   local map = { of = {} }
   for _, name in ipairs(outcomes) do map.of[name] = { name = name, style = "points", x = {}, y = {} } end
@@ -28,6 +28,31 @@ function common.map(outcomes)
     local list = {}
     for _, name in ipairs(outcomes) do if #self.of[name].x > 0 then list[#list + 1] = self.of[name] end end
     return list
+  end
+  function map:cells()
+    local function ascending(axis)
+      local list, place = {}, {}
+      for _, points in pairs(self.of) do
+        for _, value in ipairs(points[axis]) do
+          if not place[value] then list[#list + 1], place[value] = value, 0 end
+        end
+      end
+      table.sort(list)
+      for k, value in ipairs(list) do place[value] = k end
+      return list, place
+    end
+    local x <const>, column <const> = ascending "x"
+    local y <const>, row <const> = ascending "y"
+    local values <const> = {}
+    for j = 1, #y do
+      values[j] = {}
+      for i = 1, #x do values[j][i] = 0/0 end -- not applicable where nothing happened
+    end
+    for k, name in ipairs(outcomes) do
+      local points <const> = self.of[name]
+      for i = 1, #points.x do values[row[points.y[i]]][column[points.x[i]]] = k end
+    end
+    return { x = x, y = y, values = values, names = outcomes }
   end
   return map
 end

@@ -202,7 +202,7 @@ TEST_CASE("texts too long for their places are broken and shortened, not cut off
       CHECK(cut == 0);
       // The legend has its marker, above the plot where the name is long.
       int above = 0;
-      for (int y = 0; y < 70; ++y)
+      for (int y = 0; y < 90; ++y)
         for (int x = 0; x < p.width; ++x) above += near(p.at(x, y), series_colour(0));
       if (n > 1) CHECK(above > 20);
     }

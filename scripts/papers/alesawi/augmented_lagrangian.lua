@@ -101,22 +101,20 @@ print(("No growth of CG, for D adds only as many large eigenvalues as it has row
 print(("Where there is one outer iteration no multiplier is used at all: that is the penalty method, here right to %.0e."):format(select(2, over("multiplier", {8, 10}, "error"))))
 print("The penalty was raised (first order) for (M, rho0) = " .. table.concat(raised, " ") .. ".")
 
--- 4. The ten graphs as two figures: solid the first-order update, dashed the least-squares one.
+-- 4. The ten graphs as two figures, a cell for each run.
 local function draw(file, key, label)
-  local series = {}
-  for _, M in ipairs(precisions) do
-    for _, update in ipairs(updates) do
-      local x, y = {}, {}
-      for power = 0, 10 do
-        local one = results[update][M][power + 1]
-        x[#x + 1], y[#y + 1] = one.rho, one[key]
-      end
-      local first = update == "multiplier"
-      series[#series + 1] = { name = first and ("M = %g"):format(M) or nil, x = x, y = y, twin = not first }
+  local panels <const>, penalties <const> = {}, {}
+  for power = 0, 10 do penalties[power + 1] = 10.0^power end
+  for k, update in ipairs(updates) do
+    local values <const> = {}
+    for j, M in ipairs(precisions) do
+      values[j] = {}
+      for i = 1, #penalties do values[j][i] = results[update][M][i][key] end
     end
+    panels[k] = { title = update == "multiplier" and "First-order update" or "Least-squares update", y = "M", log = "xy",
+                  map = { x = penalties, y = precisions, values = values, label = label } }
   end
-  series[#series + 1] = { name = "least squares", x = {1, 1}, y = {0, 0}, reference = true }
-  dotyk.chart{ file = file, x = "first penalty ρ₀", y = label, log = "x", series = series, size = {1000, 700} }
+  dotyk.chart{ file = file, x = "first penalty ρ₀", panels = panels, size = { 1000, 1000 } }
 end
 draw("images/augmented_lagrangian_cg.png", "cg", "CG iterations")
 draw("images/augmented_lagrangian_outer.png", "outer", "outer iterations")

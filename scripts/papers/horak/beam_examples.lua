@@ -117,7 +117,7 @@ local function forces(a, b) return { { x = 0.25, force = a }, { x = 0.8, force =
 local sweeps <const> = { { "q = −1: m", nil, -1 }, { "two forces: m", forces(-1, 0.25) } }
 local series <const> = {}
 for k, sweep in ipairs(sweeps) do
-  local m <const>, R <const> = common.curve(sweep[1], { style = "line" }), common.curve(k == 1 and "q = −1: R" or "two forces: R", { style = "points" })
+  local m <const>, R <const> = common.curve(sweep[1], { style = "line" }), common.curve((sweep[1]:gsub("m$", "R")), { style = "points", axis = "right", twin = true })
   local W, clamped = 1 / 2, 1 / 8
   if sweep[2] then W, clamped = moments(sweep[2]) end
   for i = 1, 80 do
@@ -165,8 +165,8 @@ end
 print(("   40 times: equal to the clamped and supported beam; greatest moment %.4f"):format(most))
 assert(most < 0.4)
 
-local panels <const> = { { title = "Example 1, q = −1: claimed to turn for T₁ > 0.5", x = "M₁", y = "T₁", series = map:series() },
-  { title = "Example 2: moment at 0, reaction at 1", x = "M₁", y = "m, R", series = series },
+local panels <const> = { { title = "Example 1, q = −1: claimed to turn for T₁ > 0.5", x = "M₁", y = "T₁", map = map:cells(), series = {} },
+  { title = "Example 2", x = "M₁", y = "moment m at 0", y_right = "reaction R at 1", series = series },
   { title = "Example 3: W = 0, M₁ = 0.2", x = "x", y = "1000 u", series = lines } }
 local function border(x, y) table.insert(panels[1].series, { x = x, y = y, reference = true, style = "line" }) end
 border({ 0, 1 / 8, 1 / 4 }, { 1 / 2, 5 / 8, 5 / 8 })

@@ -143,8 +143,8 @@ end
 local fit <const> = include "../../lib/least_squares.lua"
 print "\n(b) a cylinder's facets: S(r) is the load's moment about the axis, M that of the support p(v) = 0; p(u)/p(r) and screws without p"
 print " S(r)   n   greatest S(r)        M     M + S(r)   without p: det   p(u)/p(r)   to it with p: energy   forces"
-local limit_curve <const> = common.curve "greatest S(r) that facets carry"
-local turned <const>, forces_curve <const>, energy_curve <const> = common.curve "turn p(u)/p(r) without p", common.curve "contact forces", common.curve "energy"
+local limit_curve <const> = common.curve "greatest S(r)"
+local turned <const>, forces_curve <const>, energy_curve <const> = common.curve("turn p(u)/p(r)", { axis = "right" }), common.curve "contact forces", common.curve "energy"
 local errors <const>, orders <const>, refused, limits = {}, {}, 0, {}
 for i, moment in ipairs{ 0, 0.1 } do
   errors[i] = common.curve(("M + S(r), S(r) = %g"):format(moment))
@@ -175,7 +175,7 @@ print(("orders in h: M + S(r) %.2f and %.2f, greatest moment %.2f, energy %.2f")
 dotyk.chart{ file = "images/papers_normalisation.png", columns = 3, size = { 1900, 650 }, panels = {
   { title = "(a) Normalised by p on γ0", x = "x1", y = "10⁵ u1 on the front edge, n = 4", series = shifted },
   { title = "(b) Moments about the axis", x = "h", y = "moment", log = "xy", series = { errors[1], errors[2], limit_curve } },
-  { title = "(b) S(r) = 0: solution without p", x = "h", y = "turn; relative difference to that with p", log = "xy", series = { turned, forces_curve, energy_curve } } } }
+  { title = "(b) S(r) = 0: solution without p", x = "h", y = "relative difference to that with p", y_right = "turn", log = "xy", series = { forces_curve, energy_curve, turned } } } }
 print "images/papers_normalisation.png"
 common.verdict(same < 1e-11 and math.min(orders[1], orders[2]) > 1.8 and limit_order > 0.5 and energy_order > 1.8 and refused > 0, (
   "in (a) p chooses one of the solutions, the program's up to a translation (differences %.0e); in (b) it is a support: it bears the load's moment, as the facets do not on finer "

@@ -59,7 +59,7 @@ do
 end
 
 -- 3. The optimisation, from seven radii of the first trust region.
-local kinds <const> = { { name = "exact" }, { name = "h = 2.5e-2", h = 2.5e-2 }, { name = "h = 2.5e-3", h = 2.5e-3 }, { name = "h = 2.5e-5", h = 2.5e-5 } }
+local kinds <const> = { { name = "exact" }, { name = "h = 2.5 × 10⁻²", h = 2.5e-2 }, { name = "h = 2.5 × 10⁻³", h = 2.5e-3 }, { name = "h = 2.5 × 10⁻⁵", h = 2.5e-5 } }
 local radii <const> = { 0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.5 }
 local variables <const> = shape().variables
 print "\nfinal compliance (designs), by the first radius"
@@ -148,10 +148,10 @@ local function edge(alpha) -- the lower edge above the other body
   return y
 end
 local lines <const> = {}
-for k, kind in ipairs(kinds) do lines[k] = { name = ("%s: %d in all"):format(kind.name, kind.sum.designs), x = radii, y = kind.designs } end
+for k, kind in ipairs(kinds) do lines[k] = { name = ("%s: %d in all"):format(kind.name, kind.sum.designs), x = radii, y = kind.designs, style = "points" } end
 print("wrote", dotyk.chart{ file = "images/cont.png", size = { 1000, 1050 }, title = "Two bodies in contact: a shape of least compliance", panels = {
-  { x = "x", y = "pressure", series = { { name = "first design", x = x, y = before }, { name = "best design", x = x, y = after } } },
-  { x = "x", y = "gap at rest", series = { { name = "first design", x = x, y = edge() }, { name = "best design", x = x, y = edge(exact.best.alpha) } } },
+  { x = "x", y = "pressure", series = { { name = "first design", x = x, y = before, style = "line" }, { name = "best design", x = x, y = after, style = "line" } } },
+  { x = "x", y = "gap at rest", series = { { name = "first design", x = x, y = edge(), style = "line" }, { name = "best design", x = x, y = edge(exact.best.alpha), style = "line" } } },
   { x = "first radius of the trust region", y = "designs", series = lines } } })
 local look <const> = { field = "von_mises", deform = 1, range = { 0, 6000 }, window = { -0.1, -1.05, 2.15, 0.85 }, size = { 1200, 900 } }
 for _, it in ipairs{ { first, "images/cont_first.png", "First design" }, { best, "images/cont_best.png", "Least compliance" } } do

@@ -100,12 +100,12 @@ for _, element in ipairs{ "P1", "Q1", "P2", "Q2" } do
 end
 
 -- 3. Figures.
-local function series(name, nodes, length, scale)
+local function series(name, nodes, length, scale, style)
   local x, y = {}, {}
   for _, node in ipairs(nodes) do
     if node.x < 1.3 * length then x[#x + 1], y[#y + 1] = node.x / length, node.pressure / scale end
   end
-  return { name = name, x = x, y = y, style = "both" }
+  return { name = name, x = x, y = y, style = style }
 end
 local hx, hy = {}, {}
 for i = 0, 100 do hx[#hx + 1], hy[#hy + 1] = i / 100, math.sqrt(1 - (i / 100)^2) end
@@ -115,11 +115,11 @@ dotyk.chart{ file = "images/mortar.png", size = {1000, 1250}, panels = {
   { title = "Patch test, 7 edges on 5", x = "x", y = "p / exact",
     series = { series("mortar", flat:contact(flat_contact).nodes, 1, p),
                series("node to segment", uneven:contact(uneven_contact).nodes, 1, p) } },
-  { title = ("Hertz, %d cells on %d"):format(finest, 7 * finest // 5), x = "x / a", y = "p / p0",
-    series = { { name = "Hertz", x = hx, y = hy, reference = true }, series("mortar", shown.mortar.nodes, shown.mortar.a, shown.mortar.p0),
-               series("node to segment", shown.feet.nodes, shown.feet.a, shown.feet.p0) } },
-  { title = "Hertz, error in L2", x = "cells along an edge", y = "error [%]", log = "xy", slopes = { -1 },
-    series = { { name = "matching nodes", x = chart.x, y = chart.matching, front = true }, { name = "mortar, 5:7", x = chart.x, y = chart.mortar },
+  { title = ("Hertz, %d cells on %d"):format(finest, 7 * finest // 5), x = "x / a", y = "p / p_0",
+    series = { { name = "Hertz", x = hx, y = hy, reference = true }, series("mortar", shown.mortar.nodes, shown.mortar.a, shown.mortar.p0, "line"),
+               series("node to segment", shown.feet.nodes, shown.feet.a, shown.feet.p0, "points") } },
+  { title = "Hertz, error in L²", x = "cells along an edge", y = "error [%]", log = "xy", slopes = { -1 },
+    series = { { name = "matching nodes", x = chart.x, y = chart.matching }, { name = "mortar, 5:7", x = chart.x, y = chart.mortar },
                { name = "node to segment, 5:7", x = chart.x, y = chart.feet } } } } }
 local scene <const> = hertz.scene(40, 56, "mortar", "Q1", 0.2)
 dotyk.solve(scene):render{ file = "images/mortar_hertz.png", field = "von_mises", units = { length = "mm", stress = "MPa" }, deform = 1, edges = true, window = {0, -7, 9, 4} }

@@ -130,10 +130,9 @@ for _, smooth in ipairs{ { "Two bodies in the plane", cantilever }, { "A block o
   if case.friction then title = ("%s: %d stick, %d slip"):format(smooth[1], c.stick, c.slip) end
   local series <const> = curves(title, central, case)
   panels[#panels + 1] = { title = title, y = "relative error", log = "xy", series = series }
-  if panels[2] then for _, one in ipairs(series) do one.name = nil end end -- one legend for all
-  series[#series + 1] = { name = not panels[2] and "1e-6" or nil, reference = true, x = { 1e-10, 1e-1 }, y = { 1e-6, 1e-6 } }
+  series[#series + 1] = { name = "10⁻⁶", reference = true, x = { 1e-10, 1e-1 }, y = { 1e-6, 1e-6 } }
 end
-dotyk.chart{ file = "images/shape_derivatives.png", x = "h", panels = panels, size = { 1000, 1800 } }
+dotyk.chart{ file = "images/shape_derivatives.png", x = "h", panels = panels, columns = 2, size = { 2000, 1300 } }
 
 -- 5. A kink: Newton's method for the fourth design variable, so that the last open node touches.
 local case <const> = cantilever()

@@ -180,12 +180,19 @@ local kinds <const> = {
   end },
 }
 
+-- Where a share lies with 95 % confidence that was found as k of n [%] (Wilson 1927).
+local function interval(k, n)
+  local z2 <const> = 1.96^2
+  local middle <const>, half <const> = (k + z2 / 2) / (n + z2), math.sqrt(z2 * (k * (n - k) / n + z2 / 4)) / (n + z2)
+  return 100 * math.max(0, middle - half), 100 * (middle + half)
+end
+
 print "\nshare of problems that cycle, from the empty set / from the empty, the full or one of six random sets"
 print "random P-matrices                n = 3           4           5           6           7           8"
-local series, unsolved = {}, 0
+local series, unsolved = { often = {}, rarely = {} }, 0 -- percentages above and below 1
 for _, kind in ipairs(kinds) do
   local label, make = table.unpack(kind)
-  local line, x, y = {}, {}, {}
+  local line, x, y, low, high = {}, {}, {}, {}, {}
   for n = 3, 8 do
     local empty, any = 0, 0
     for _ = 1, trials do
@@ -209,13 +216,18 @@ for _, kind in ipairs(kinds) do
     end
     line[#line + 1] = ("%5.2f/%5.2f%%"):format(100 * empty / trials, 100 * any / trials)
     x[#x + 1], y[#y + 1] = n, 100 * any / trials
+    low[#x], high[#x] = interval(any, trials)
   end
   print(("%-28s  %s"):format(label, table.concat(line, " ")))
-  series[#series + 1] = { name = math.max(table.unpack(y)) > 0 and label or label .. ": never", x = x, y = y }
+  local most <const> = math.max(table.unpack(y))
+  local group <const> = series[most > 1 and "often" or "rarely"]
+  for i in ipairs(x) do x[i] = x[i] + 0.08 * #group end -- whiskers side by side
+  table.insert(group, { name = most > 0 and label or label .. ": never", x = x, y = y, low = low, high = high, bars = true })
 end
 print(("%d of %d problems were left unsolved: every cycle was noticed, and Lemke's method went on from there"):format(
   unsolved, #kinds * 6 * trials * 8))
 assert(unsolved == 0)
 
-dotyk.chart{ file = "images/cycles.png", log = "y", x = "unknowns n", y = "problems that cycle from some start [%]", series = series }
+dotyk.chart{ file = "images/cycles.png", x = "unknowns n", size = { 1000, 1000 }, panels = {
+  { title = "Problems that cycle, 95 % confidence", y = "of all [%]", series = series.often }, { y = "of all [%]", series = series.rarely } } }
 print "images/cycles.png"

@@ -46,9 +46,9 @@ for _, nu in ipairs{ 0, 0.3 } do
       series[#series + 1] = { name = ("ν = %g, n = %d"):format(nu, n), x = x, y = y }
     end
   end
-  series[#series + 1] = { name = ("half-plane, ν = %g"):format(nu), x = { 0.1, 4 }, y = { 0.1 * theory, 4 * theory }, reference = true }
+  series[#series + 1] = { name = ("theory, ν = %g"):format(nu), x = { 0.1, 4 }, y = { 0.1 * theory, 4 * theory }, reference = true }
 end
-series[#series + 1] = { name = "no contraction from here on", x = { 0.1, 4 }, y = { 1, 1 }, reference = true }
+series[#series + 1] = { name = "no contraction above", x = { 0.1, 4 }, y = { 1, 1 }, reference = true }
 
-dotyk.chart{ file = "images/coulomb_loop.png", log = "xy", x = "coefficient of friction μ", y = "contraction of a step", series = series }
+dotyk.chart{ file = "images/coulomb_loop.png", log = "xy", x_range = { 0.08, 12 }, x = "coefficient of friction μ", y = "contraction of a step", series = series }
 print "images/coulomb_loop.png"

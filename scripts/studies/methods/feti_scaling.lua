@@ -170,8 +170,8 @@ local function against_direct()
   print "\nmethod  unknowns  seconds  memory [GB]   energy"
   local time, memory = {}, {}
   for _, method in ipairs{ "pdas", "feti" } do
-    time[method] = { name = method .. ": seconds", x = {}, y = {} }
-    memory[method] = { name = method .. ": GB", x = time[method].x, y = {}, twin = true }
+    time[method] = { name = method, x = {}, y = {} }
+    memory[method] = { name = method, x = time[method].x, y = {} }
   end
   local ends = {}
   for k, cube in ipairs(cubes) do
@@ -189,16 +189,17 @@ local function against_direct()
     assert(k > 1 or energies.pdas and energies.feti, "not even the smallest cube was solved")
     assert(not (energies.pdas and energies.feti) or math.abs(energies.feti / energies.pdas - 1) < same_energy, "the two methods differ")
   end
-  local series <const> = { time.pdas, memory.pdas, time.feti, memory.feti }
-  for _, pair in ipairs{ { "as fast", time }, { "as much memory", memory } } do
-    local what <const>, of <const> = pair[1], pair[2]
+  local panels <const> = {}
+  for k, panel in ipairs{ { "as fast", time, "seconds" }, { "as much memory", memory, "memory [GB]" } } do
+    local what <const>, of <const>, label <const> = table.unpack(panel)
+    panels[k] = { y = label, log = "xy", series = { of.pdas, of.feti } }
     local x <const>, y <const> = crossing(of.pdas, of.feti)
     if x then
       print(("%s at %.0f unknowns"):format(what, x))
-      series[#series + 1] = { name = ("%s: %d00 unknowns"):format(what, math.floor(x / 100 + 0.5)), x = { x }, y = { y }, style = "points" }
+      panels[k].notes = { { x = x, y = y, text = ("%s: %d00 unknowns"):format(what, math.floor(x / 100 + 0.5)) } }
     end
   end
-  dotyk.chart{ file = "images/feti_direct.png", x = "unknowns", y = "seconds, GB", log = "xy", series = series, size = { 1000, 700 } }
+  dotyk.chart{ file = "images/feti_direct.png", x = "unknowns", panels = panels, size = { 1000, 1000 } }
   if most then return end
   local last <const> = #time.feti.x
   assert(time.feti.x[last] >= 1.2e6, "not solved with 1.2 million unknowns")

@@ -49,7 +49,7 @@ local function deviation(s, contacts, top, C) -- of pressures and of the top's d
   return error
 end
 print("iterations and error, ! not converged\n     C   " .. ("%16s"):rep(#methods):format(table.unpack(methods)))
-local rows_error, residuals = 0, common.curve("out of equilibrium by", { reference = true, style = "line" })
+local rows_error, residuals = 0, common.curve("residual", { reference = true, style = "line" })
 for power = -16, 16, 2 do
   local C = 10.0^power
   local scene, contacts, top = tower(C)
@@ -85,7 +85,7 @@ for _, sign in ipairs{ 1, -1 } do
   worst, least = math.max(worst, found / predicted, predicted / found), math.min(least, found)
   print(("C^%+d is solved up to C = %.1e; by the residual at 1e4 to 1e7, in proportion to C, %.1e"):format(sign, found, predicted))
 end
-series[#series + 1] = common.curve("the most that dotyk grants: 0.1", { reference = true })
+series[#series + 1] = common.curve("granted: 0.1", { reference = true })
 for power = -16, 16, 32 do series[#series]:add(10.0^power, limit) end
 dotyk.chart{ file = "images/stability_contrast.png", log = "xy", x = "stiffness C of the block in the middle, over that of the others",
              y = "relative error against the closed form", series = series, size = { 1100, 800 } }

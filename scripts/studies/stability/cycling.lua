@@ -152,7 +152,7 @@ for _, slender in ipairs{ 5, 7, 10, 14, 20, 28, 40, 57, 80, 113, 160 } do
 end
 print(("\nstrips: of %d, %d meet a set again, the stoutest of a length of %g thicknesses; descent settles %d of them, another method %d; not converged: %d"):format(
   solves, repeats, slenderest, repeats - helped - given_up, helped, given_up))
-dotyk.chart{ file = "images/stability_cycling_contact.png", log = "xy", x = "length over thickness of the strip", y = "load over that which bends it by the gap", series = map:series() }
+dotyk.chart{ file = "images/stability_cycling_contact.png", log = "xy", x = "length over thickness of the strip", y = "load over that which bends it by the gap", map = map:cells() }
 print "images/stability_cycling.png, images/stability_cycling_contact.png"
 common.verdict(worst < 0.05 and mild == 0 and unsolved == 0 and wrong == 0 and given_up == 0 and apart < 1e-6, ("the cyclic matrices cycle from α = 1 on (found within %.0e), symmetric ones "
   .. "only with three unknowns or more and the oftener the worse the condition; every repeat was noticed, every complementarity problem "

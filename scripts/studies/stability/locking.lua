@@ -93,7 +93,7 @@ for n = 8, finest do
 end
 local order <const> = fit.order(widths, places)
 series[#series + 1], series[#series + 2] = theory, found
-dotyk.chart{ file = "images/stability_locking.png", log = "xy", x = "1 − 2ν", y = "part of the displacement that is lost", series = series }
+dotyk.chart{ file = "images/stability_locking.png", log = "xy", x = "1 − 2ν", y = "part of the displacement lost", series = series }
 print "images/stability_locking.png"
 common.verdict(worst < 0.05 and math.abs(order - 2) < 0.1 and refused > 0 and wrong == 0 and told > 0.5 and bricks_apart < 1e-5, ("Q1 loses half of the displacement at 1 − 2ν = C h² (found within %.1f %% of the "
   .. "law, exponent %.2f), bricks as much as quadrilaterals; "

@@ -73,10 +73,11 @@ for row = 0, 31 do
   if not friction and joints ~= "gggg" and deviates == unique then miscounted = miscounted + 1 end
   print(line)
 end
-dotyk.chart{ file = "images/stability_overconstrained.png", size = { 1500, 1250 },
-  x = "1 pdas, 2 active set, 3 int. point, 4 newton, 5 proximal, 6 cg, 7 psor, 8 uzawa, 9 feti", panels = {
-    { title = "Without friction", y = "joints (16: all glued)", series = maps[1]:series() },
-    { title = "Coulomb's friction", y = "joints (16: all glued)", series = maps[2]:series() } } }
+local panels <const> = {}
+for k, title in ipairs{ "Without friction", "Coulomb's friction" } do
+  panels[k] = { title = title, y = "joints (16: all glued)", categories = methods, map = maps[k]:cells() }
+end
+dotyk.chart{ file = "images/stability_overconstrained.png", size = { 1000, 1250 }, x = "method", panels = panels }
 print "images/stability_overconstrained.png"
 local text = {}
 for _, name in ipairs(methods) do if missing[name] then text[#text + 1] = name .. " " .. missing[name] end end

@@ -27,7 +27,7 @@ local function bodies(a)
   return scene, scene:contact{ upper:part"bottom", lower:part"top" }
 end
 
-local regularity, apart_curve = common.curve "regularity of the screws", common.curve "forces: screws against the exact kernel"
+local regularity, apart_curve = common.curve "found", common.curve "screws against the exact kernel"
 local proportion <const> = common.curve("theory: in proportion to a", { reference = true })
 local x, y, wrong, worst, refused, gave_up = {}, {}, 0, 0, {}, 0
 print "      a   kernel  screws  regularity   forces apart   ends"
@@ -39,6 +39,7 @@ for half = 0, 32 do
   local text = ("%7.0e   %6s"):format(a, said and exact.kernel or "-")
   if not held then
     refused[#refused + 1] = a
+    apart_curve:add(a, 0/0) -- a gap
     if not s:find("the screws do not hold every rigid motion", 1, true) then wrong = wrong + 1 end
     print(text .. "  refused: " .. s:match "solve: (.*)":sub(1, 90))
   else
@@ -62,7 +63,9 @@ for half = 0, 32 do
 end
 local slope <const> = fit.order(x, y)
 for k = 1, #x do proportion:add(x[k], y[1] * x[k] / x[1]) end
-dotyk.chart{ file = "images/stability_screws.png", log = "xy", x = "slope a of the groove", y = "regularity; difference of forces", series = { regularity, apart_curve, proportion } }
+dotyk.chart{ file = "images/stability_screws.png", x = "slope a of the groove", size = { 1000, 1000 }, panels = {
+  { y = "regularity of the screws", log = "xy", series = { regularity, proportion } },
+  { y = "forces: relative difference", log = "xy", series = { apart_curve }, y_range = { 1e-16, 1e-10 } } } }
 print "images/stability_screws.png"
 common.verdict(math.abs(slope - 1) < 0.05 and worst < 1e-10 and wrong == 0 and #refused <= 4 and gave_up <= 2, ("the screws' regularity falls in proportion to the groove (exponent %.3f), and the forces stay "
   .. "those of the exact kernel to %.0e; at a = %.0e … %.0e dotyk refuses to place three screws, and from there on takes two and a linear condition, unique up to the sliding"):format(

@@ -1,5 +1,7 @@
 #include "figure/canvas/axes.hpp"
 
+#include <numbers>
+
 namespace dotyk::figure {
 
 bool Axis::shows(double value) const { return std::isfinite(value) && (!log || value > 0); }
@@ -9,6 +11,14 @@ namespace {
 Wide place(const Axis& axis, double value) { return axis.log ? Wide{std::log10(value)} : Wide{value}; }
 
 Wide per_unit(const Axis& axis) { return (axis.to - axis.from) / (place(axis, axis.high) - place(axis, axis.low)); }
+
+// The part of a broken axis on which the value lies.
+Axis part_of(const Axis& axis, double value) {
+  const AxisBreak& b = *axis.left_out;
+  if (value < b.from) return {axis.log, axis.low, b.from, axis.from, b.low};
+  if (value > b.to) return {axis.log, b.to, axis.high, b.high, axis.to};
+  return {axis.log, b.from, b.to, b.low, b.high};
+}
 
 double hair(double em) { return std::max(1.0, em / 24); }
 
@@ -26,6 +36,7 @@ bool fit(const Ticks& ticks, const Axis& axis, double em) {
 }  // namespace
 
 double Axis::pixel(double value) const {
+  if (left_out) return part_of(*this, value).pixel(value);
   const Wide a = place(*this, low), b = place(*this, high);
   const Wide at = from + (to - from) * ((place(*this, value) - a) / (b - a));
   return static_cast<double>(std::clamp<Wide>(at, -most_pixels, most_pixels));
@@ -35,6 +46,12 @@ double Axis::pixels_per_unit() const { return static_cast<double>(std::min<Wide>
 
 double steepness(const Axis& x, const Axis& y, double slope) {
   return static_cast<double>(std::clamp<Wide>(slope * per_unit(y) / per_unit(x), -most_pixels, most_pixels));
+}
+
+Point Axes::at(double x_value, double y_value) const {
+  if (!pole) return {x.pixel(x_value), y.pixel(y_value)};
+  const double angle = x_value * std::numbers::pi / 180;
+  return *pole + y.pixel(y_value) * Point{std::cos(angle), std::sin(angle)};
 }
 
 std::vector<std::vector<Point>> pieces(std::size_t count, const std::function<std::optional<Point>(std::size_t)>& at) {
@@ -55,23 +72,23 @@ void draw_grid(Canvas& canvas, const Axes& a) {
   for (const double y : a.y_ticks.labelled()) canvas.line({a.room.left, a.y.pixel(y)}, {a.room.right, a.y.pixel(y)}, hair(a.em), axes_grid);
 }
 
-void draw_ticks(Canvas& canvas, const Axes& a, bool x_labels) {
-  const double tick = 0.32 * a.em;
-  for (const bool vertical : {false, true}) {
-    double busy_until = -1e9;
-    for (const Tick& t : (vertical ? a.y_ticks : a.x_ticks).ticks) {
-      const double p = (vertical ? a.y : a.x).pixel(t.value), inwards = t.label.empty() ? 0.55 * tick : tick;
-      const Point foot = vertical ? Point{a.room.left, p} : Point{p, a.room.bottom};
-      canvas.line(foot, foot + inwards * (vertical ? Point{1, 0} : Point{0, 1}), 1.3 * hair(a.em), axes_ink);
-      if (t.label.empty() || (!vertical && !x_labels)) continue;
-      const double half = (vertical ? 0.9 * a.em : text_extent(t.label, a.em).x + 0.5 * a.em) / 2;
-      if (p - half < busy_until) continue;
-      busy_until = p + half;
-      if (vertical)
-        canvas.text({a.room.left - 0.4 * a.em, p}, t.label, {.size = a.em, .across = Align::high, .up = Align::middle});
-      else
-        canvas.text({p, a.room.bottom - 0.35 * a.em}, t.label, {.size = a.em, .across = Align::middle, .up = Align::high});
-    }
+void draw_ticks(Canvas& canvas, const Axes& a, Side side, bool labels, Colour colour) {
+  const double tick = a.tick * a.em;
+  const bool vertical = side != Side::below;
+  const Point inwards = side == Side::left ? Point{1, 0} : side == Side::right ? Point{-1, 0} : Point{0, 1};
+  double busy_until = -1e9;
+  for (const Tick& t : (vertical ? a.y_ticks : a.x_ticks).ticks) {
+    const double p = (vertical ? a.y : a.x).pixel(t.value), length = t.label.empty() ? 0.55 * tick : tick;
+    const Point foot = vertical ? Point{side == Side::left ? a.room.left : a.room.right, p} : Point{p, a.room.bottom};
+    canvas.line(foot, foot + length * inwards, 1.3 * hair(a.em), colour);
+    if (t.label.empty() || !labels) continue;
+    const double half = (vertical ? 0.9 * a.em : text_extent(t.label, a.em).x + 0.5 * a.em) / 2;
+    if (p - half < busy_until) continue;
+    busy_until = p + half;
+    TextStyle style{.size = a.em, .across = side == Side::left ? Align::high : Align::low, .up = Align::middle};
+    if (!vertical) style.across = Align::middle, style.up = Align::high;
+    if (!(colour == axes_ink)) style.colour = colour;
+    canvas.text(foot - (vertical ? 0.4 : 0.35) * a.em * inwards, t.label, style);
   }
 }
 
@@ -88,6 +105,19 @@ Ticks few_ticks(double low, double high, double wanted, double plain) {
   Ticks out;
   for (int n = std::clamp(static_cast<int>(wanted), 2, 8); n <= 10 && out.labelled().size() < least; ++n) out = linear_ticks(low, high, n, plain);
   return out;
+}
+
+Ticks broken_ticks(const Axis& axis, double wanted) {
+  constexpr double kMost = 20;
+  const AxisBreak& b = *axis.left_out;
+  const double all = axis.high - axis.low, share = all / (all - (b.to - b.from)), least = std::max(3.0, wanted) * share;
+  for (double n = least;; n *= 1.3) {
+    Ticks out = linear_ticks(axis.low, axis.high, static_cast<int>(n));
+    std::erase_if(out.ticks, [&](const Tick& t) { return t.value >= b.from && t.value <= b.to; });
+    const std::vector<double> values = out.labelled();
+    const auto above = std::count_if(values.begin(), values.end(), [&](double v) { return v > b.to; });
+    if ((above > 0 && std::ssize(values) - above > 1) || n > kMost * least) return out;
+  }
 }
 
 Ticks spaced_ticks(const Axis& axis, double em) {

@@ -50,11 +50,18 @@ constexpr Colour axes_ink{30, 30, 30}, axes_grid{228, 228, 228};
 // What lies farther off, or would rise more steeply, counts as so far.
 constexpr double most_pixels = 1e300;
 
+// Values between `from` and `to` are left out: they share the few pixels between `low` and `high`.
+struct AxisBreak {
+  double from = 0, to = 0, low = 0, high = 0;
+  bool hides(double value) const { return value > from && value < to; }
+};
+
 // An axis: values in [low, high] run over the pixels [from, to].
 struct Axis {
   bool log = false;
   double low = 0, high = 1;
   double from = 0, to = 1;
+  std::optional<AxisBreak> left_out = {};
 
   bool shows(double value) const;            // finite, and positive where logarithmic
   double pixel(double value) const;
@@ -69,7 +76,9 @@ struct Axes {
   Axis x, y;
   Ticks x_ticks, y_ticks;
   double em = 20;
-  Point at(double x_value, double y_value) const { return {x.pixel(x_value), y.pixel(y_value)}; }
+  double tick = 0.32;              // em that ticks reach into the room; negative: out of it
+  std::optional<Point> pole = {};  // of polar axes: x is an angle in degrees, and y counts pixels from here
+  Point at(double x_value, double y_value) const;
   // A line through points of these coordinates, in pixels.
   std::vector<Point> line(const std::vector<double>& x_values, const std::vector<double>& y_values) const {
     std::vector<Point> out;
@@ -83,12 +92,15 @@ std::vector<std::vector<Point>> pieces(std::size_t count, const std::function<st
 
 // White ground and grid lines.
 void draw_grid(Canvas& canvas, const Axes& axes);
-// Ticks and their labels, never one into another.
-void draw_ticks(Canvas& canvas, const Axes& axes, bool x_labels = true);
+// Ticks of the axis at one edge of the room, and their labels, never one into another.
+enum class Side { left, below, right };
+void draw_ticks(Canvas& canvas, const Axes& axes, Side side, bool labels = true, Colour colour = axes_ink);
 void draw_frame(Canvas& canvas, const Axes& axes);
 double widest_label(const Ticks& ticks, double size);
 // Ticks for so many labels, or a few more: at least four of them labelled, or two where less than 2.3 are wanted, as there is no room for four.
 Ticks few_ticks(double low, double high, double wanted, double plain = 1e-3);
+// Of a broken axis: about so many labels on what is not left out, at least one above and two below it.
+Ticks broken_ticks(const Axis& axis, double wanted);
 // Of a horizontal axis: as many as have room for their labels; three where a power of ten beside the axis makes that room.
 Ticks spaced_ticks(const Axis& axis, double em);
 // "force  (× 10³)".

@@ -49,6 +49,7 @@ std::optional<Point> free_place(const Occupied& occupied, const Box& room, Point
 
 std::optional<Point> near_place(const Occupied& occupied, const Occupied& to, const Box& room, Point size, double margin) {
   constexpr int steps = 40;
+  constexpr double kOthers = 2;  // beside another curve it would seem to belong to that
   const double x = room.width() - size.x - 2 * margin, y = room.height() - size.y - 2 * margin;
   if (x < 0 || y < 0) return std::nullopt;
   std::optional<Point> place;
@@ -57,8 +58,9 @@ std::optional<Point> near_place(const Occupied& occupied, const Occupied& to, co
     for (int j = 0; j <= steps; ++j) {
       const Point p{room.left + margin + x * i / steps, room.bottom + margin + y * j / steps};
       const Box block{p.x, p.y, p.x + size.x, p.y + size.y};
-      if (occupied.distance(block) < margin) continue;
-      const double cost = to.distance(block) + 0.02 * (p.y - room.bottom);
+      const double nearest = occupied.distance(block), own = to.distance(block);
+      if (nearest < margin) continue;
+      const double cost = own + kOthers * (own - nearest) + 0.02 * (p.y - room.bottom);
       if (!place || cost < best) best = cost, place = p;
     }
   return place;

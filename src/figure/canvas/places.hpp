@@ -23,7 +23,7 @@ private:
 // The corner or edge of `room` where a block of this size meets no curve: its lower left.
 std::optional<Point> free_place(const Occupied& occupied, const Box& room, Point size, double margin);
 
-// Where in `room` the lower left of a block of this size stands next to the curves of `to`, rather
+// Where in `room` the lower left of a block of this size stands next to the curves of `to`, rather than next to others, and rather
 // below than above, but keeps `margin` clear of all that is occupied.
 std::optional<Point> near_place(const Occupied& occupied, const Occupied& to, const Box& room, Point size, double margin);
 

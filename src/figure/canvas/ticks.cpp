@@ -125,7 +125,8 @@ Ticks log_ticks(double low, double high, int wanted) {
     }
   }
   // Next to no decade: as on a linear axis.
-  return out.labelled().size() < 2 && every == 1 ? linear_ticks(low, high, wanted) : out;
+  const std::size_t few = decades < 0.5 ? 3 : 2;
+  return out.labelled().size() < few && every == 1 ? linear_ticks(low, high, wanted) : out;
 }
 
 }  // namespace dotyk::figure

@@ -4,15 +4,22 @@
 #include <vector>
 
 #include "figure/canvas/axes.hpp"
-#include "figure/canvas/legend.hpp"
 #include "figure/canvas/places.hpp"
 
 namespace dotyk::figure {
 
 // The axis range of the data: that given, or the finite values with a margin.
-Axis fit_axis(const ChartPicture& chart, bool vertical);
+Axis fit_axis(const ChartPicture& chart, Side side);
 
-// A curve in pixels, in pieces between points that an axis cannot show.
+// Both pairs of axes: they share the room and x.
+struct ChartAxes {
+  Axes left, right;
+  const Axes& of(const SeriesPicture& s) const { return s.right ? right : left; }
+};
+
+// Points in numbers, in pieces between those that the axes cannot show; the same as curves in pixels, which bend at a break of the
+// axis and between angles.
+std::vector<std::vector<Point>> runs(const std::vector<double>& x, const std::vector<double>& y, const Axes& axes);
 std::vector<std::vector<Point>> curves(const std::vector<double>& x, const std::vector<double>& y, const Axes& axes);
 
 // A triangle whose slanted side has the slope, near the curve whose slope is most like it and clear of
@@ -32,11 +39,6 @@ struct ChartFrame {
   bool alone = false;       // may be narrower than the picture
   bool legend = true;
 };
-
-// Do series have the same names, and look the same, in the legends of both?
-bool same_legend(const ChartPicture& a, const ChartPicture& b);
-// In rows no wider than so many pixels; 0: one name below the other. The picture must outlive it.
-Legend chart_legend(const ChartPicture& picture, double em, double width);
 
 // From the canvas's origin, of the picture's size; returns the margins taken.
 ChartMargins draw_on(Canvas& canvas, const ChartPicture& picture, const ChartFrame& frame);

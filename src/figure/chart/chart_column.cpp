@@ -3,6 +3,7 @@
 #include "figure/canvas/paper.hpp"
 #include "figure/canvas/sheet.hpp"
 #include "figure/chart/chart.hpp"
+#include "figure/chart/chart_look.hpp"
 #include "figure/door/drawing.hpp"
 
 namespace dotyk::figure {
@@ -13,27 +14,38 @@ namespace {
 std::array<double, 2> common_x(const std::vector<ChartPicture>& panels) {
   std::array<double, 2> range{INFINITY, -INFINITY};
   for (const ChartPicture& panel : panels) {
-    const Axis axis = fit_axis(panel, false);
+    const Axis axis = fit_axis(panel, Side::below);
     range = {std::min(range[0], axis.low), std::max(range[1], axis.high)};
   }
   return range;
 }
 
-bool has_legend(const ChartPicture& panel) {
-  return std::ranges::any_of(panel.series, [](const SeriesPicture& s) { return !s.name.empty(); });
+// The panel whose legend serves all others that have one, the longest; none where some have other entries or such as depend on the
+// room, or only one has a legend.
+const ChartPicture* common_legend(const std::vector<ChartPicture>& panels) {
+  const ChartPicture* longest = nullptr;
+  double most = 0;
+  std::ptrdiff_t with = 0;
+  for (const ChartPicture& panel : panels) {
+    const double height = chart_legend(panel, 1, 0).height();
+    with += height > 0;
+    if (height > most) most = height, longest = &panel;
+  }
+  const bool serves = std::ranges::all_of(panels, [&](const ChartPicture& panel) { return !names_beside(panel) && (!longest || legend_serves(*longest, panel)); });
+  return serves && with > 1 ? longest : nullptr;
 }
 
-// The panel whose legend serves all others that have one; none where these differ, or only one has.
-const ChartPicture* common_legend(const std::vector<ChartPicture>& panels) {
-  const ChartPicture* first = nullptr;
-  bool several = false;
-  for (const ChartPicture& panel : panels) {
-    if (!has_legend(panel)) continue;
-    if (first && !same_legend(*first, panel)) return nullptr;
-    several = first;
-    if (!first) first = &panel;
+// Of all maps that show the same.
+void share_colours(std::vector<ChartPicture>& panels) {
+  for (ChartPicture& panel : panels) {
+    if (!panel.map || !panel.map->names.empty()) continue;
+    std::array<double, 2> range{INFINITY, -INFINITY};
+    for (const ChartPicture& other : panels)
+      if (other.map && other.map->names.empty() && other.map->label == panel.map->label)
+        for (const double v : other.map->values)
+          if (!std::isnan(v)) range = {std::min(range[0], v), std::max(range[1], v)};
+    if (range[0] <= range[1]) panel.map->range = range;
   }
-  return several ? first : nullptr;
 }
 
 double sum(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
@@ -43,6 +55,7 @@ class Grid {
 public:
   Grid(const ChartColumn& picture, double em, bool legends) : columns_(static_cast<std::size_t>(picture.columns)), width_(static_cast<double>(picture.width) / picture.columns) {
     panels_ = picture.panels;
+    share_colours(panels_);
     for (std::size_t i = 0; i < panels_.size(); ++i) {
       panels_[i].width = static_cast<int>(width_), panels_[i].height = picture.height / static_cast<int>(rows());
       if (picture.shared_x) panels_[i].x_range = common_x(picture.panels);

@@ -1,173 +1,124 @@
 // Charts, drawn by hand on the canvas: vtkChartXY places curves on a
 // logarithmic axis only at its second rendering, and knows neither markers
 // that stand off each other nor slope guides.
-#include <limits>
 #include <optional>
 
-#include "figure/canvas/legend.hpp"
 #include "figure/canvas/paper.hpp"
 #include "figure/canvas/sheet.hpp"
-#include "figure/chart/chart.hpp"
+#include "figure/chart/chart_categories.hpp"
+#include "figure/chart/chart_map.hpp"
+#include "figure/chart/chart_polar.hpp"
+#include "figure/chart/chart_series.hpp"
+#include "figure/chart/chart_texts.hpp"
 #include "figure/door/drawing.hpp"
 
 namespace dotyk::figure {
 
 namespace {
 
-constexpr Colour front_yellow{255, 232, 150};
-constexpr std::array markers{Marker::disc, Marker::square, Marker::triangle, Marker::diamond,
-                             Marker::down_triangle, Marker::ring, Marker::cross, Marker::plus};
-
-constexpr double strip_gap = 0.45;  // in em
-
-// How a series is drawn.
-struct Look {
-  const SeriesPicture& data;
-  Colour colour;
-  Marker marker;
-  bool dashed;
-};
-
-// Methods have the same colour and marker in every chart: their places in this order, dashed beyond as many as there are colours.
-constexpr std::array methods{"pdas", "newton", "projected_cg", "interior_point", "uzawa", "active_set", "psor", "feti", "multigrid", "uzawa_pdas", "coulomb_loop", "penalty", "proximal"};
-
-bool takes_colour(const SeriesPicture& s) { return !s.reference && !s.twin && !s.front && !s.status; }
-
-// For each series that takes a colour, the place of its name among the methods. Empty if one has another name, or two have the same.
-std::vector<int> places_of_methods(const std::vector<SeriesPicture>& series) {
-  std::vector<int> places;
-  for (const SeriesPicture& s : series) {
-    if (!takes_colour(s)) continue;
-    const int place = static_cast<int>(std::find(methods.begin(), methods.end(), s.name) - methods.begin());
-    if (place == static_cast<int>(methods.size()) || std::find(places.begin(), places.end(), place) != places.end()) return {};
-    places.push_back(place);
-  }
-  return places;
-}
-
-// Reference curves, statuses and twins take no colour of their own, so the k-th series keeps its own. Beside statuses only
-// colours that are none of theirs.
-std::vector<Look> looks(const std::vector<SeriesPicture>& series) {
-  constexpr int kColours = 7;
-  constexpr std::array clear{0, 2, 6};
-  const bool statuses = std::any_of(series.begin(), series.end(), [](const SeriesPicture& s) { return s.status.has_value(); });
-  const std::vector<int> places = statuses ? std::vector<int>{} : places_of_methods(series);
-  std::vector<Look> out;
-  int own = 0;
-  for (const SeriesPicture& s : series) {
-    if (takes_colour(s)) ++own;
-    int k = std::max(0, own - 1);
-    if (!places.empty()) k = places[k];
-    const Colour colour = s.reference ? reference_grey : s.status ? status_colour(*s.status) : series_colour(statuses ? clear[k % clear.size()] : k);
-    out.push_back({s, colour, s.status ? status_marker(*s.status) : markers[k % markers.size()], s.reference || s.twin || (!statuses && k >= kColours)});
-  }
-  return out;
-}
-
-// Those of a legend.
-std::vector<Look> named(const ChartPicture& picture) {
-  std::vector<Look> out;
-  for (const Look& look : looks(picture.series))
-    if (!look.data.name.empty()) out.push_back(look);
-  return out;
-}
-
-// Draws series; lines and markers are sized by the height of letters.
-struct Pen {
-  double em;
-
-  double line_width() const { return std::max(1.5, em / 9); }
-  double front_width() const { return 0.9 * em; }
-  double marker_size(const SeriesPicture& s) const { return (s.style == SeriesStyle::points ? 0.45 : 0.5) * em; }
-
-  void sample(Canvas& canvas, const Look& look, const Box& b) const {
-    const SeriesPicture& s = look.data;
-    if (s.front) return canvas.polyline(b.midline(), front_width(), front_yellow);
-    const double middle = b.centre().y;
-    if (!s.low.empty()) canvas.box({b.left, middle - 0.3 * em, b.right, middle + 0.3 * em}, look.colour, 0.2);
-    if (s.style != SeriesStyle::points || s.reference) stroke(canvas, b.midline(), look);
-    if (s.style != SeriesStyle::line && !s.reference) mark(canvas, look, b.centre());
-  }
-
-  void stroke(Canvas& canvas, std::span<const Point> points, const Look& look) const {
-    const std::array<double, 2> dash{0.42 * em, 0.26 * em};
-    canvas.polyline(points, line_width(), look.colour, look.dashed ? std::span<const double>(dash) : std::span<const double>());
-  }
-
-  void mark(Canvas& canvas, const Look& look, Point at) const {
-    if (look.data.crossed) canvas.crossed_marker(look.marker, at, marker_size(look.data), look.colour);
-    else canvas.marker(look.marker, at, marker_size(look.data), look.colour);
-  }
-};
+constexpr double strip_gap = 0.45;   // em, of a break
+constexpr double outwards = -0.25;   // em, of ticks beside the cells of a map
+constexpr double name_depth = 1.7, labels_depth = 1.6;  // em, of the name of a y axis and of the labels of the x axis
 
 class Chart {
 public:
   // Draws itself, from the canvas's origin.
   Chart(const ChartPicture& picture, Canvas& canvas, const ChartFrame& frame)
-      : picture_(picture), canvas_(canvas), frame_(frame), em_(frame.em), pen_{frame.em}, looks_(looks(picture.series)) {
-    axes_.em = em_, axes_.x = fit_axis(picture, false), axes_.y = fit_axis(picture, true);
+      : picture_(picture), canvas_(canvas), frame_(frame), em_(frame.em), looks_(looks(picture)), series_(canvas, axes_, looks_, em_), legend_({}, em_) {
+    Axes& axes = axes_.left;
+    axes.em = em_;
+    axes.x = fit_axis(picture, Side::below), axes.y = fit_axis(picture, Side::left);
+    if (picture.map) axes.tick = outwards;
+    if (picture.y_break) axes.y.left_out = AxisBreak{(*picture.y_break)[0], (*picture.y_break)[1]};
+    right_ = std::ranges::any_of(picture.series, &SeriesPicture::right);
     for (const Look& look : looks_)
       if (look.data.y.empty() && !look.data.x.empty()) failed_.push_back(look);
     place(0);
-    Legend legend = frame.legend ? chart_legend(picture, em_, 0) : Legend({}, em_);
     occupy();
-    auto corner = free_place(occupied_, room_, {legend.width(), legend.height()}, 0.6 * em_);
-    if (!corner && !legend.empty()) {
-      // No free place among the curves: in rows above them.
-      legend = chart_legend(picture, em_, room_.width());
-      place(legend.height());
-      occupied_ = {};
-      occupy();
-      corner = Point{room_.left + (room_.width() - legend.width()) / 2, room_.top + strip_height() + 0.1 * em_};
-    }
+    const std::optional<Point> corner = place_legend();
     draw_axes();
     draw_strip();
-    canvas_.clip(room_);
-    for (const Look& look : looks_) draw_front(look);
-    for (const Look& look : looks_) draw_spread(look);
-    for (const Look& look : looks_) draw_line(look);
-    for (const Look& look : looks_) draw_whiskers(look);
-    canvas_.no_clip();
-    for (const Look& look : looks_) draw_markers(look);
-    draw_frame(canvas_, axes_);
-    if (corner && !legend.empty()) {
+    draw_plot();
+    draw_frames();
+    for (const PlotText& text : texts_) draw(canvas_, text, em_);
+    if (corner) {
       const bool inside = corner->y < room_.top - 1;
-      legend.draw(canvas_, *corner, inside);
-      if (inside) occupied_.add(Box{corner->x, corner->y, corner->x + legend.width(), corner->y + legend.height()});
+      legend_.draw(canvas_, *corner, inside);
+      if (inside) occupied_.add(Box{corner->x, corner->y, corner->x + legend_.width(), corner->y + legend_.height()});
     }
-    for (const SlopeGuide& guide : picture.slopes) draw_guide(canvas_, picture, guide, axes_, occupied_);
+    for (const SlopeGuide& guide : picture.slopes) draw_guide(canvas_, picture, guide, axes, occupied_);
+    if (picture.polar) draw_polar_labels(canvas_, axes, occupied_);
   }
 
   ChartMargins margins() const { return {room_.left, picture_.width - room_.right, room_.bottom, picture_.height - room_.top}; }
 
 private:
-  static bool dense(const std::vector<Point>& curve, double spacing) {
-    return curve.size() > 2 && std::abs(curve.back().x - curve.front().x) / static_cast<double>(curve.size() - 1) < spacing && curve.size() > 60;
-  }
-
   // Margins from the widths of what stands in them.
   void place(double legend_height) {
-    Axis &x = axes_.x, &y = axes_.y;
+    Axis &x = axes_.left.x, &y = axes_.left.y;
     for (int round = 0; round < 2; ++round) {
-      const double labels_x = std::max(3.0, room_.width() > 1 ? room_.width() / (4.5 * em_) : 6);
-      const double labels_y = std::max(3.0, room_.height() > 1 ? room_.height() / (3.2 * em_) : 6);
-      axes_.x_ticks = x.log ? log_ticks(x.low, x.high, static_cast<int>(labels_x) + 1) : linear_ticks(x.low, x.high, std::min(8, static_cast<int>(labels_x)));
-      axes_.y_ticks = y.log ? log_ticks(y.low, y.high, static_cast<int>(labels_y) + 1) : few_ticks(y.low, y.high, std::min(8.0, labels_y));
-      const double widest = std::max(widest_label(axes_.y_ticks, em_), failed_.empty() ? 0 : text_extent("converged", small_text * em_).x);
-      room_.left = 0.6 * em_ + (picture_.y_label.empty() && !axes_.y_ticks.exponent ? 0 : 1.7 * em_) + widest + 0.5 * em_;
-      room_.left = std::max(room_.left, frame_.least.left);
-      room_.bottom = frame_.x_labels ? 0.4 * em_ + (picture_.x_label.empty() && !axes_.x_ticks.exponent ? 0 : 1.35 * em_) + 1.6 * em_ : 0.2 * em_;
-      room_.bottom = std::max(room_.bottom, frame_.least.below);
-      room_.right = picture_.width - std::max(0.6 * em_ + widest_label(axes_.x_ticks, em_) / 2, frame_.least.right);
-      room_.top = picture_.height - 0.9 * em_ - (picture_.title.empty() ? 0 : 1.9 * em_) - legend_height - strip_height();
+      axes_.left.x_ticks = x_ticks();
+      axes_.left.y_ticks = y_ticks(y);
+      if (right_) axes_.right.y_ticks = y_ticks(axes_.right.y = fit_axis(picture_, Side::right));
+      room_.left = std::max(margin_left(), frame_.least.left);
+      room_.right = picture_.width - std::max(margin_right(), frame_.least.right);
+      room_.bottom = std::max(margin_below(), frame_.least.below);
+      room_.top = picture_.height - 0.9 * em_ - (picture_.title.empty() ? 0 : 1.9 * em_ + beyond_two(title())) - legend_height - strip_height();
       room_.top = std::min(room_.top, picture_.height - frame_.least.above);
-      if (frame_.alone && equal()) make_square();
+      if (frame_.alone && (equal() || picture_.polar)) make_square();
     }
     x.from = room_.left, x.to = room_.right;
     y.from = room_.bottom, y.to = room_.top;
+    if (y.left_out) share_height(y);
+    if (picture_.polar) place_polar(axes_.left);
+    const auto [right, ticks] = std::tuple(axes_.right.y, axes_.right.y_ticks);
+    axes_.right = axes_.left;
+    if (right_) axes_.right.y = right, axes_.right.y.from = y.from, axes_.right.y.to = y.to, axes_.right.y_ticks = ticks;
   }
 
-  bool equal() const { return !axes_.x.log && !axes_.y.log && picture_.x_range && picture_.x_range == picture_.y_range; }
+  Ticks x_ticks() const {
+    const Axis& x = axes_.left.x;
+    Ticks out;
+    for (const std::string& name : picture_.categories) out.ticks.push_back({static_cast<double>(out.ticks.size() + 1), name});
+    if (!out.ticks.empty() || picture_.polar) return out;
+    if (picture_.map && !x.log && !map_ticks(picture_.map->x).ticks.empty()) return map_ticks(picture_.map->x);
+    const double labels = std::max(3.0, room_.width() > 1 ? room_.width() / (4.5 * em_) : 6);
+    return x.log ? log_ticks(x.low, x.high, static_cast<int>(labels) + 1) : linear_ticks(x.low, x.high, std::min(8, static_cast<int>(labels)));
+  }
+
+  Ticks y_ticks(const Axis& y) const {
+    const double labels = std::max(3.0, room_.height() > 1 ? room_.height() / (3.2 * em_) : 6);
+    if (picture_.polar) return {};
+    if (picture_.map && !y.log && !map_ticks(picture_.map->y).ticks.empty()) return map_ticks(picture_.map->y);
+    if (y.left_out) return broken_ticks(y, std::min(8.0, labels));
+    return y.log ? log_ticks(y.low, y.high, static_cast<int>(labels) + 1) : few_ticks(y.low, y.high, std::min(8.0, labels));
+  }
+
+  double margin_left() const {
+    const Ticks& ticks = axes_.left.y_ticks;
+    const double widest = std::max(widest_label(ticks, em_), failed_.empty() ? 0 : text_extent("converged", small_text * em_).x);
+    return 0.6 * em_ + (picture_.y_label.empty() && !ticks.exponent ? 0 : name_depth * em_ + beyond_two(y_name(axes_.left))) + widest + 0.5 * em_;
+  }
+
+  double margin_right() const {
+    if (right_) return 0.6 * em_ + (picture_.y_right_label.empty() && !axes_.right.y_ticks.exponent ? 0 : name_depth * em_ + beyond_two(y_name(axes_.right))) + widest_label(axes_.right.y_ticks, em_) + 0.5 * em_;
+    const double bar = picture_.map ? map_bar_width(*picture_.map, em_) : 0;
+    return 0.6 * em_ + std::max(bar, picture_.categories.empty() ? widest_label(axes_.left.x_ticks, em_) / 2 : 0);
+  }
+
+  double margin_below() const {
+    if (!frame_.x_labels) return 0.2 * em_;
+    const double name = picture_.x_label.empty() && !axes_.left.x_ticks.exponent ? 0 : 1.35 * em_ + beyond_two(x_name()) + (x_name().lines.size() > 1 ? 0.3 * em_ : 0);
+    if (picture_.polar) return 0.6 * em_ + name;
+    return 0.4 * em_ + name + (picture_.categories.empty() ? labels_depth * em_ : 0.6 * em_ + category_names().height());
+  }
+
+  CategoryNames category_names() const {
+    const double width = room_.width() > 1 ? room_.width() : picture_.width - room_.left;
+    return {picture_.categories, em_, width / static_cast<double>(picture_.categories.size()), static_cast<double>(picture_.height)};
+  }
+
+  bool equal() const { return !axes_.left.x.log && !axes_.left.y.log && picture_.x_range && picture_.x_range == picture_.y_range; }
 
   void make_square() {
     const double side = std::min(room_.width(), room_.height());
@@ -175,70 +126,48 @@ private:
     room_ = {room_.left + indent_, room_.bottom, room_.right - indent_, room_.bottom + side};
   }
 
-  // From x_low to x_high at every point that the axes show.
-  std::vector<std::array<Point, 2>> whiskers(const SeriesPicture& s) const {
-    std::vector<std::array<Point, 2>> out;
-    for (std::size_t i = 0; i < s.x_low.size(); ++i)
-      if (axes_.x.shows(s.x_low[i]) && axes_.x.shows(s.x_high[i]) && axes_.y.shows(s.y[i])) out.push_back({axes_.at(s.x_low[i], s.y[i]), axes_.at(s.x_high[i], s.y[i])});
-    return out;
+  // Both parts of a broken axis have one scale, unless one would be very low.
+  void share_height(Axis& y) const {
+    constexpr double kLeast = 0.2;
+    AxisBreak& b = *y.left_out;
+    const double gap = strip_gap * em_, share = (b.from - y.low) / (b.from - y.low + y.high - b.to);
+    b.low = y.from + std::clamp(share, kLeast, 1 - kLeast) * (y.to - y.from - gap);
+    b.high = b.low + gap;
   }
 
   void occupy() {
-    for (const SeriesPicture& s : picture_.series) {
-      for (const auto& [from, to] : whiskers(s)) occupied_.add({from, to}, room_);
-      for (const auto* values : {&s.y, &s.low, &s.high})
-        for (const auto& curve : curves(s.x, *values, axes_)) occupied_.add(curve, room_);
+    occupied_ = {};
+    series_.occupy(occupied_);
+    if (picture_.polar) occupy_polar(axes_.left, occupied_);
+    texts_ = plot_texts(picture_, axes_, occupied_, crowded_);
+  }
+
+  // The lower left of the legend: at a free place among the curves; where there is none in rows above them, and all is placed anew.
+  std::optional<Point> place_legend() {
+    if (!frame_.legend) return std::nullopt;
+    legend_ = chart_legend(picture_, em_, 0, crowded_);
+    if (legend_.empty()) return std::nullopt;
+    const bool covered = picture_.map && !picture_.polar;
+    if (const auto corner = free_place(occupied_, room_, {legend_.width(), legend_.height()}, 0.6 * em_); corner && !covered) return corner;
+    // Less room may leave names without a place, which the legend then has too.
+    for (std::size_t before = picture_.series.size() + 1; before != crowded_.size();) {
+      before = crowded_.size();
+      legend_ = chart_legend(picture_, em_, room_.width(), crowded_);
+      place(legend_.height());
+      occupy();
     }
+    return Point{room_.left + (room_.width() - legend_.width()) / 2, room_.top + strip_height() + 0.1 * em_};
   }
 
-  void draw_front(const Look& look) {
-    if (!look.data.front) return;
-    for (const auto& curve : curves(look.data.x, look.data.y, axes_)) {
-      canvas_.polyline(curve, pen_.front_width(), front_yellow);
-      for (const Point& end : {curve.front(), curve.back()}) canvas_.disc(end, pen_.front_width() / 2, front_yellow);
-    }
-  }
-
-  // With caps.
-  void draw_whiskers(const Look& look) {
-    const double width = 0.8 * pen_.line_width();
-    const Point cap{0, 0.22 * em_};
-    for (const auto& ends : whiskers(look.data)) {
-      canvas_.line(ends[0], ends[1], width, look.colour);
-      for (const Point& end : ends) canvas_.line(end - cap, end + cap, width, look.colour);
-    }
-  }
-
-  void draw_spread(const Look& look) {
-    const SeriesPicture& s = look.data;
-    if (s.low.empty()) return;
-    const double least = std::max(axes_.y.low * 1e-6, std::numeric_limits<double>::denorm_min());
-    const auto at = [&](std::size_t i, double v) { return axes_.at(s.x[i], axes_.y.log ? std::max(v, least) : v); };
-    for (std::size_t i = 0; i + 1 < s.x.size(); ++i)
-      if (axes_.x.shows(s.x[i]) && axes_.x.shows(s.x[i + 1]))
-        canvas_.convex(std::array{at(i, s.low[i]), at(i + 1, s.low[i + 1]), at(i + 1, s.high[i + 1]), at(i, s.high[i])}, look.colour, 0.2);
-  }
-
-  void draw_line(const Look& look) {
-    const SeriesPicture& s = look.data;
-    if (s.front || (s.style == SeriesStyle::points && !s.reference)) return;
-    for (const auto& curve : curves(s.x, s.y, axes_)) pen_.stroke(canvas_, curve, look);
-  }
-
-  void draw_markers(const Look& look) {
-    const SeriesPicture& s = look.data;
-    if (s.style == SeriesStyle::line || s.reference || s.front) return;
-    for (const auto& curve : curves(s.x, s.y, axes_)) {
-      // A line needs no marker at every one of many points; points alone do.
-      const bool thin = s.style == SeriesStyle::both && dense(curve, pen_.marker_size(s));
-      const double spacing = thin ? 0.08 * room_.width() : 0;
-      Point last{-1e9, -1e9};
-      for (const Point& p : curve) {
-        if (!room_.holds(p, 0.5) || length(p - last) < spacing) continue;
-        pen_.mark(canvas_, look, p);
-        last = p;
-      }
-    }
+  void draw_plot() {
+    canvas_.clip(room_);
+    if (picture_.map) draw_map(canvas_, *picture_.map, axes_.left);
+    if (picture_.polar) draw_polar_grid(canvas_, axes_.left);
+    series_.draw_curves();
+    canvas_.no_clip();
+    if (const auto& b = axes_.left.y.left_out) canvas_.box({room_.left, b->low, room_.right, b->high}, {255, 255, 255});
+    series_.draw_markers();
+    if (picture_.map) draw_map_bar(canvas_, *picture_.map, axes_.left, room_.right, picture_.width);
   }
 
   double strip_height() const { return failed_.empty() ? 0 : strip_gap * em_ + std::max(2.3, 0.4 + 0.8 * static_cast<double>(failed_.size())) * em_; }
@@ -247,35 +176,76 @@ private:
   void draw_strip() {
     if (failed_.empty()) return;
     const double foot = room_.top + strip_gap * em_;
-    const Axes strip{{room_.left, foot, room_.right, room_.top + strip_height()}, axes_.x, {}, axes_.x_ticks, {}, em_};
+    const Axes strip{{room_.left, foot, room_.right, room_.top + strip_height()}, axes_.left.x, {}, axes_.left.x_ticks, {}, em_};
     draw_grid(canvas_, strip);
-    const Point stroke{0.3 * em_, 0.12 * em_}, words{room_.left - 0.4 * em_, strip.room.centre().y};
-    for (const double x : {room_.left, room_.right})
-      for (const double y : {room_.top, foot}) canvas_.line(Point{x, y} - stroke, Point{x, y} + stroke, std::max(1.2, em_ / 18), axes_ink);
+    const Point words{room_.left - 0.4 * em_, strip.room.centre().y};
+    draw_break(room_.top, foot);
     canvas_.text(words, "not", {.size = small_text * em_, .across = Align::high});
     canvas_.text(words, "converged", {.size = small_text * em_, .across = Align::high, .up = Align::high});
     for (std::size_t row = 0; row < failed_.size(); ++row) {
       const double y = foot + strip.room.height() * (static_cast<double>(row) + 0.5) / static_cast<double>(failed_.size());
       for (const double x : failed_[row].data.x)
-        if (const Point at{axes_.x.shows(x) ? axes_.x.pixel(x) : -1e9, y}; strip.room.holds(at, 0.5)) pen_.mark(canvas_, failed_[row], at);
+        if (const Point at{axes_.left.x.shows(x) ? axes_.left.x.pixel(x) : -1e9, y}; strip.room.holds(at, 0.5)) Pen{em_}.mark(canvas_, failed_[row], at);
     }
     draw_frame(canvas_, strip);
   }
 
-  void draw_axes() {
-    draw_grid(canvas_, axes_);
-    draw_ticks(canvas_, axes_, frame_.x_labels);
-    draw_names();
-    const FittedText title = fitted(picture_.title, 1.1 * em_, picture_.width - em_, true);
-    canvas_.text({within(title, true), picture_.height - 0.6 * em_}, title, title_style());
+  // Slanted strokes at both ends of a gap in the y axis.
+  void draw_break(double low, double high) {
+    const Point stroke{0.3 * em_, 0.12 * em_};
+    for (const double x : {room_.left, room_.right})
+      for (const double y : {low, high}) canvas_.line(Point{x, y} - stroke, Point{x, y} + stroke, std::max(1.2, em_ / 18), axes_ink);
   }
 
-  // Lines one below the other need no more room than one: their letters are half as high.
+  void draw_frames() {
+    if (picture_.polar) return;
+    Axes part = axes_.left;
+    if (const auto& b = axes_.left.y.left_out) {
+      part.room.top = b->low;
+      draw_frame(canvas_, part);
+      part.room = {room_.left, b->high, room_.right, room_.top};
+      draw_break(b->low, b->high);
+    }
+    draw_frame(canvas_, part);
+  }
+
+  void draw_axes() {
+    const Axes& axes = axes_.left;
+    if (!picture_.polar) {
+      draw_grid(canvas_, axes);
+      draw_ticks(canvas_, axes, Side::left);
+      draw_ticks(canvas_, axes, Side::below, frame_.x_labels && picture_.categories.empty());
+      if (frame_.x_labels && !picture_.categories.empty()) category_names().draw(canvas_, axes);
+      if (right_) draw_ticks(canvas_, axes_.right, Side::right, true, right_colour(picture_));
+    }
+    draw_names();
+    const FittedText above = title();
+    canvas_.text({within(above, true), picture_.height - 0.6 * em_}, above, title_style());
+  }
+
+  FittedText title() const { return fitted(picture_.title, 1.1 * em_, picture_.width - em_, true); }
+  FittedText x_name() const { return fitted(frame_.x_labels ? picture_.x_label : "", em_, picture_.width - em_, false, frame_.x_labels ? axis_name("", axes_.left.x_ticks) : ""); }
+  FittedText y_name(const Axes& axes) const {
+    const double room = room_.height() > 1 ? room_.height() : picture_.height;
+    return fitted(&axes == &axes_.left ? picture_.y_label : picture_.y_right_label, em_, room, false, axis_name("", axes.y_ticks));
+  }
+
+  // Two lines need no more room than one: their letters are half as high. A third does.
+  static double beyond_two(const FittedText& text) {
+    const auto lines = static_cast<double>(text.lines.size());
+    return lines > 2 ? (lines - 2) / (lines - 1) * text.depth() : 0;
+  }
+
   void draw_names() {
-    const FittedText x = fitted(frame_.x_labels ? picture_.x_label : "", em_, picture_.width - em_, false, frame_.x_labels ? axis_name("", axes_.x_ticks) : "");
+    const FittedText x = x_name();
     canvas_.text({within(x), 0.4 * em_ + x.depth()}, x, {.across = Align::middle});
-    const FittedText y = fitted(picture_.y_label, em_, room_.height(), false, axis_name("", axes_.y_ticks));
-    canvas_.text({indent_ + 0.45 * em_, room_.centre().y}, y, {.up = Align::middle, .upright = true});
+    canvas_.text({indent_ + 0.45 * em_, room_.centre().y}, y_name(axes_.left), {.up = Align::middle, .upright = true});
+    if (!right_) return;
+    const FittedText right = y_name(axes_.right);
+    const Colour colour = right_colour(picture_);
+    TextStyle style{.across = Align::high, .up = Align::middle, .upright = true};
+    if (!(colour == axes_ink)) style.colour = colour;
+    canvas_.text({picture_.width - 0.45 * em_ - right.depth(), room_.centre().y}, right, style);
   }
 
   // The middle of the plot, unless the text is so long that the whole width is needed.
@@ -290,30 +260,19 @@ private:
   Canvas& canvas_;
   ChartFrame frame_;
   double em_;
-  Pen pen_;
   std::vector<Look> looks_, failed_;  // of all series, of those of the strip
-  Axes axes_;
-  Box& room_ = axes_.room;
+  ChartAxes axes_;
+  SeriesDrawing series_;
+  Legend legend_;
+  bool right_ = false;  // is there a y axis on the right?
+  Box& room_ = axes_.left.room;
   double indent_ = 0;  // of a plot narrower than it might be
+  std::vector<PlotText> texts_;
+  SeriesSet crowded_;  // reference curves whose names have no place in the plot
   Occupied occupied_;
 };
 
 }  // namespace
-
-bool same_legend(const ChartPicture& a, const ChartPicture& b) {
-  const std::vector<Look> one = named(a), other = named(b);
-  return std::equal(one.begin(), one.end(), other.begin(), other.end(), [](const Look& x, const Look& y) {
-    const auto look = [](const Look& l) { return std::tuple(l.data.name, l.marker, l.dashed, l.data.style, l.data.reference, l.data.front, l.data.crossed, l.data.low.empty()); };
-    return x.colour == y.colour && look(x) == look(y);
-  });
-}
-
-Legend chart_legend(const ChartPicture& picture, double em, double width) {
-  constexpr double kLetters = 0.92;
-  std::vector<LegendEntry> entries;
-  for (const Look& look : named(picture)) entries.push_back({look.data.name, [pen = Pen{em}, look](Canvas& canvas, const Box& box) { pen.sample(canvas, look, box); }});
-  return Legend(std::move(entries), kLetters * em, width);
-}
 
 ChartMargins draw_on(Canvas& canvas, const ChartPicture& picture, const ChartFrame& frame) { return Chart(picture, canvas, frame).margins(); }
 

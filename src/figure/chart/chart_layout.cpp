@@ -3,6 +3,8 @@
 
 #include <limits>
 
+#include "figure/chart/chart_map.hpp"
+
 namespace dotyk::figure {
 
 namespace {
@@ -21,7 +23,7 @@ Occupied like(const ChartPicture& picture, double slope, const Axes& axes, const
   for (const SeriesPicture& s : picture.series)
     for (const auto& curve : curves(s.x, s.y, axes)) {
       const Point way = curve.back() - curve.front();
-      if (s.reference || way.x == 0) continue;
+      if (s.reference || s.right || way.x == 0) continue;
       // Between angles: steep slopes differ little.
       const double off = std::abs(std::atan(way.y / way.x) - std::atan(slope));
       if (off < least - 1e-9) least = off, best = curve;
@@ -34,11 +36,27 @@ Occupied like(const ChartPicture& picture, double slope, const Axes& axes, const
 
 }  // namespace
 
-Axis fit_axis(const ChartPicture& chart, bool vertical) {
+namespace {
+
+// Of an axis whose range does not depend on the curves.
+std::optional<std::array<double, 2>> fixed_range(const ChartPicture& chart, Side side) {
+  const bool x = side == Side::below;
+  if (x && chart.polar) return std::array{0.0, 360.0};
+  if (x && !chart.categories.empty()) return std::array{0.5, static_cast<double>(chart.categories.size()) + 0.5};
+  if (chart.map && side != Side::right) {
+    const std::vector<double> borders = cell_borders(x ? chart.map->x : chart.map->y, x ? chart.log_x : chart.log_y);
+    return std::array{chart.polar ? 0 : borders.front(), borders.back()};
+  }
+  return x ? chart.x_range : side == Side::left ? chart.y_range : std::nullopt;
+}
+
+}  // namespace
+
+Axis fit_axis(const ChartPicture& chart, Side side) {
+  const bool vertical = side != Side::below;
   Axis axis;
   axis.log = vertical ? chart.log_y : chart.log_x;
-  const auto& given = vertical ? chart.y_range : chart.x_range;
-  if (given) {
+  if (const auto given = fixed_range(chart, side)) {
     axis.low = (*given)[0], axis.high = (*given)[1];
     return axis;
   }
@@ -50,6 +68,7 @@ Axis fit_axis(const ChartPicture& chart, bool vertical) {
     if (axis.shows(v)) low = std::min(low, v), high = std::max(high, v);
   };
   for (const SeriesPicture& s : chart.series) {
+    if (vertical && s.right != (side == Side::right)) continue;
     if (!vertical && s.y.empty()) std::for_each(s.x.begin(), s.x.end(), see);  // in the strip
     for (std::size_t i = 0; i < s.y.size(); ++i) {
       if (!other.shows(vertical ? s.x[i] : s.y[i])) continue;
@@ -60,6 +79,11 @@ Axis fit_axis(const ChartPicture& chart, bool vertical) {
   }
   if (low > high) {
     axis.low = axis.log ? 1 : 0, axis.high = axis.log ? 10 : 1;
+    return axis;
+  }
+  if (chart.polar) {
+    constexpr double kBeyond = 1.08;  // of the greatest radius
+    axis.low = 0, axis.high = high > 0 ? kBeyond * high : 1;
     return axis;
   }
   if (axis.log) {
@@ -82,10 +106,39 @@ Axis fit_axis(const ChartPicture& chart, bool vertical) {
   return axis;
 }
 
+std::vector<std::vector<Point>> runs(const std::vector<double>& x, const std::vector<double>& y, const Axes& axes) {
+  return pieces(y.size(), [&](std::size_t i) { return axes.x.shows(x[i]) && axes.y.shows(y[i]) ? std::optional(Point{x[i], y[i]}) : std::nullopt; });
+}
+
+namespace {
+
+// Where the way from p to q, in numbers, bends in pixels.
+void add_bends(std::vector<Point>& out, const Axes& axes, Point p, Point q) {
+  constexpr double kStep = 2;  // degrees
+  if (axes.pole) {
+    const int n = static_cast<int>(std::min(1e4, std::ceil(std::abs(q.x - p.x) / kStep)));
+    for (int k = 1; k < n; ++k) out.push_back(axes.at(p.x + (q.x - p.x) * k / n, p.y + (q.y - p.y) * k / n));
+  }
+  if (!axes.y.left_out) return;
+  const double across[] = {axes.x.pixel(p.x), axes.x.pixel(q.x)};
+  std::array edges{axes.y.left_out->from, axes.y.left_out->to};
+  if (p.y > q.y) std::swap(edges[0], edges[1]);
+  for (const double edge : edges)
+    if ((edge - p.y) * (edge - q.y) < 0) out.push_back({across[0] + (across[1] - across[0]) * ((edge - p.y) / (q.y - p.y)), axes.y.pixel(edge)});
+}
+
+}  // namespace
+
 std::vector<std::vector<Point>> curves(const std::vector<double>& x, const std::vector<double>& y, const Axes& axes) {
-  return pieces(y.size(), [&](std::size_t i) {
-    return axes.x.shows(x[i]) && axes.y.shows(y[i]) ? std::optional(axes.at(x[i], y[i])) : std::nullopt;
-  });
+  std::vector<std::vector<Point>> out;
+  for (const std::vector<Point>& run : runs(x, y, axes)) {
+    std::vector<Point>& curve = out.emplace_back();
+    for (std::size_t i = 0; i < run.size(); ++i) {
+      if (i > 0) add_bends(curve, axes, run[i - 1], run[i]);
+      curve.push_back(axes.at(run[i].x, run[i].y));
+    }
+  }
+  return out;
 }
 
 void draw_guide(Canvas& canvas, const ChartPicture& picture, const SlopeGuide& guide, const Axes& axes, Occupied& occupied) {
@@ -93,13 +146,15 @@ void draw_guide(Canvas& canvas, const ChartPicture& picture, const SlopeGuide& g
   const bool plain = guide.label.empty(), rises = ratio >= 0;
   const std::string label = plain ? number(guide.slope) : guide.label;
   const Point extent = text_extent(label, size);
-  for (const double share : {0.16, 0.11, 0.07}) {
+  const Occupied own = like(picture, ratio, axes, occupied);
+  // Rather small beside its curve than large elsewhere.
+  for (const auto& [share, farthest] : {std::pair{0.16, 2.5}, {0.11, 2.5}, {0.07, 2.5}, {0.16, INFINITY}, {0.11, INFINITY}, {0.07, INFINITY}}) {
     double run = share * axes.room.width();
     if (std::abs(ratio) * run > 1.6 * share * axes.room.height()) run = 1.6 * share * axes.room.height() / std::abs(ratio);
     // With room for the labels on the right, and on the level side: below where the line rises, else above.
     const double up = std::abs(ratio * run), width = run + extent.x + 2 * pad, height = up + 1.2 * em + pad;
-    const std::optional<Point> place = near_place(occupied, like(picture, ratio, axes, occupied), axes.room, {width, height}, 0.5 * em);
-    if (!place) continue;
+    const std::optional<Point> place = near_place(occupied, own, axes.room, {width, height}, 0.5 * em);
+    if (!place || own.distance({place->x, place->y, place->x + width, place->y + height}) > farthest * em) continue;
     const Point at = *place;
     occupied.add(Box{at.x, at.y, at.x + width, at.y + height});
     const double low = at.y + (rises ? 1.2 * em : pad);

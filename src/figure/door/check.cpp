@@ -1,26 +1,16 @@
-#include "figure/door/drawing.hpp"
+#include "figure/door/checks.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
-#include <span>
-#include <stdexcept>
-#include <tuple>
 
 #include "base/error.hpp"
-#include "base/text.hpp"
 #include "base/whole_file.hpp"
 #include "figure/canvas/plane.hpp"
 #include "figure/canvas/window.hpp"
+#include "figure/door/drawing.hpp"
 
 namespace dotyk::figure {
 
 namespace {
-
-template <class... Parts>
-void require(bool holds, const Parts&... message) {
-  if (!holds) throw std::runtime_error(text(message...));
-}
 
 std::string box_text(const std::array<double, 4>& b) {
   char out[128];
@@ -46,13 +36,6 @@ bool is_utf8(const std::string& words) {
   return true;
 }
 
-// Of every text that is drawn; `key` is what scripts call it.
-void check_text(const std::string& key, const std::string& words) {
-  constexpr std::size_t most = 1000;
-  if (words.size() > most) throw InputError(text(key, " has ", words.size(), " bytes; a text in a figure has at most ", most));
-  if (!is_utf8(words)) throw InputError(key + " is not valid UTF-8");
-}
-
 // `endings` with their dots; `words`: the same in words.
 void check_file(const std::string& file, std::initializer_list<const char*> endings, const std::string& words) {
   require(!file.empty(), "a file name is needed, one that ends in " + words);
@@ -60,6 +43,14 @@ void check_file(const std::string& file, std::initializer_list<const char*> endi
   require(std::ranges::any_of(endings, [&](const std::string& ending) { return name.size() > ending.size() && name.ends_with(ending); }), "cannot write ", file,
           ": the file name must end in ", words);
   place_to_write(file);
+}
+
+}  // namespace
+
+void check_text(const std::string& key, const std::string& words) {
+  constexpr std::size_t most = 1000;
+  if (words.size() > most) throw InputError(text(key, " has ", words.size(), " bytes; a text in a figure has at most ", most));
+  if (!is_utf8(words)) throw InputError(key + " is not valid UTF-8");
 }
 
 void check_sheet(const Sheet& sheet) {
@@ -71,6 +62,8 @@ void check_sheet(const Sheet& sheet) {
   check_text("'title'", sheet.title);
 }
 
+namespace {
+
 void check_nodes(const std::vector<int>& nodes, int each, std::size_t n, const std::string& what) {
   require(nodes.size() % each == 0, what, ": ", nodes.size(), " entries are not a multiple of ", each);
   const auto wrong = std::find_if(nodes.begin(), nodes.end(), [n](int i) { return i < 0 || static_cast<std::size_t>(i) >= n; });
@@ -81,11 +74,6 @@ void check_nodes(const std::vector<int>& nodes, int each, std::size_t n, const s
 void check_count(const std::vector<double>& given, std::size_t n, const std::string& who, const char* what, std::size_t each = 1) {
   require(given.empty() || given.size() == each * n, who, ": ", given.size(), " ", what, " for ", n, " nodes");
 }
-
-bool finite(double value) { return std::isfinite(value); }
-bool finite(std::span<const double> values) { return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); }); }
-template <class First, class... Rest>
-bool finite(const First& first, const Rest&... rest) requires(sizeof...(Rest) > 0) { return finite(first) && (finite(rest) && ...); }
 
 // Its ends, and how far they are apart.
 bool is_range(const std::array<double, 2>& range) { return range[0] <= range[1] && std::isfinite(range[1] - range[0]); }
@@ -178,43 +166,6 @@ void check(const SceneGrid& grid) {
   check_sheet(grid);
   require(!grid.panels.empty() && grid.columns > 0, grid.file + " needs one panel at least, and one column");
   for (const ScenePicture& p : grid.panels) check_scene(p);
-}
-
-static void check_chart(const ChartPicture& p) {
-  check_text("'title'", p.title);
-  check_text("'x'", p.x_label);
-  check_text("'y'", p.y_label);
-  for (std::size_t k = 0; k < p.series.size(); ++k) check_text(text("'name' of series ", k + 1), p.series[k].name);
-  for (const SeriesPicture& s : p.series) {
-    const std::string who = "series \"" + s.name + "\"";
-    require(s.x.size() == s.y.size() || (s.crossed && s.y.empty()), who, ": ", s.x.size(), " x for ", s.y.size(), " y");
-    require(!s.y.empty() || (s.low.empty() && s.x_low.empty()), who + ": points without y have no spread and no whiskers");
-    const auto spread = [&](const std::vector<double>& low, const std::vector<double>& high) {
-      return low.size() == high.size() && (low.empty() || low.size() == s.x.size());
-    };
-    require(spread(s.low, s.high), who, ": the spread needs as many low and high values as points");
-    require(spread(s.x_low, s.x_high), who, ": whiskers need as many x_low and x_high values as points");
-  }
-  for (const SlopeGuide& guide : p.slopes) require(std::isfinite(guide.slope), "the slope of a guide is not finite");
-  for (const auto& [range, log, name] : {std::tuple{p.x_range, p.log_x, "x"}, std::tuple{p.y_range, p.log_y, "y"}})
-    if (range)
-      require(finite(*range) && (*range)[0] < (*range)[1] && (!log || (*range)[0] > 0),
-              "the range of the ", name, " axis must be {least, greatest}", log ? ", both positive" : "");
-}
-
-void check(const ChartPicture& p) {
-  check_sheet(p);
-  check_chart(p);
-}
-
-void check(const ChartColumn& p) {
-  check_sheet(p);
-  require(!p.panels.empty(), "the picture " + p.file + " has no panels");
-  require(p.columns >= 1 && p.columns <= static_cast<int>(p.panels.size()), p.panels.size(), " panels in ", p.columns, " columns");
-  for (const ChartPicture& panel : p.panels) {
-    check_chart(panel);
-    require(!p.shared_x || panel.log_x == p.panels.front().log_x, "panels that share the x axis are all logarithmic in x, or none is");
-  }
 }
 
 void check_drawing(const BeamDrawing& b) {

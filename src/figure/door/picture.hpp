@@ -203,6 +203,7 @@ struct SeriesPicture {
   std::vector<double> x, y;                 // n each, see `crossed`; points that are not finite (or not positive on a log axis) are gaps
   SeriesStyle style = SeriesStyle::both;
   std::vector<double> low, high;            // n each or empty: a spread about y, drawn as a band
+  bool bars = false;                        // that spread as upright whiskers instead
   bool reference = false;                   // a reference curve: dashed, dark grey, no markers
   std::vector<double> x_low, x_high;        // n each or empty: a spread about x, drawn as whiskers
   // Markers pale and crossed out: runs that failed. Where these have no ordinate y is empty: they stand in a strip above
@@ -211,6 +212,7 @@ struct SeriesPicture {
   bool front = false;                       // a broad pale line beneath everything, no markers
   bool twin = false;                        // dashed, with colour and marker of the series before it
   std::optional<Status> status;             // in the colour and with the marker that contact nodes of this status have
+  bool right = false;                       // on the y axis on the right
 };
 
 // A guide of the given slope. With both axes logarithmic y ~ x^slope;
@@ -220,11 +222,33 @@ struct SlopeGuide {
   std::string label;                        // empty: the slope itself
 };
 
+// A text at a free place near a point, which a thin line leads to.
+struct ChartNote {
+  double x = 0, y = 0;
+  std::string text;
+};
+
+// A value at each of a grid's points: cells around these, in colours beneath the series.
+struct ChartMap {
+  std::vector<double> x, y;                 // ascending; borders of cells are halfway between, on a logarithmic axis of the logarithms
+  std::vector<double> values;               // at (x_i, y_j): values[j · n_x + i]; nan: not applicable, white with a cross
+  std::string label, unit;                  // of the colour bar
+  std::optional<std::array<double, 2>> range;  // of the colours; default: the values', of panels those of all maps with this label
+  std::vector<std::string> names;           // not empty: values count these from 1, each has a colour and stands in the legend
+};
+constexpr std::size_t most_map_names = 6;   // as many colours differ in grey too
+
 struct ChartPicture : Sheet {
   ChartPicture() : Sheet{{}, 1000, 750, {}} {}
   std::string x_label, y_label;             // with their units
+  std::string y_right_label;                // of the series that are on the right; that axis is logarithmic where the left one is
   bool log_x = false, log_y = false;
-  std::vector<SeriesPicture> series;
+  std::vector<SeriesPicture> series;        // of several reference curves with names each has its name beside it
+  std::optional<ChartMap> map;
+  std::vector<ChartNote> notes;
+  std::vector<std::string> categories;      // names of x = 1, 2, …
+  std::optional<std::array<double, 2>> y_break;  // the linear y axis leaves out what lies between
+  bool polar = false;                       // x: angles in degrees, anticlockwise from the right; y: radii
   std::vector<SlopeGuide> slopes;
   // Default: the data with a margin. One range given to both linear axes of a chart of its own: a
   // square plot, so that a circle is round.

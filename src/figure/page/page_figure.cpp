@@ -153,7 +153,8 @@ private:
     const PageCell& c = cell(i, j);
     draw_grid(canvas_, axes);
     std::visit([&](const auto& drawing) { draw_cell(canvas_, drawing, axes); }, c.drawing);
-    draw_ticks(canvas_, axes, labels_x(i));
+    draw_ticks(canvas_, axes, Side::left);
+    draw_ticks(canvas_, axes, Side::below, labels_x(i));
     draw_frame(canvas_, axes);
     const Point middle = axes.room.centre();
     const std::string across = labels_x(i) ? axis_name(c.x_label, axes.x_ticks) : "";

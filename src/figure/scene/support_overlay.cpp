@@ -1,4 +1,5 @@
 // Symbols of supports and arrows of loads.
+#include "figure/canvas/axes.hpp"
 #include "figure/scene/shapes.hpp"
 
 namespace dotyk::figure {

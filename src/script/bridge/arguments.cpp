@@ -31,6 +31,7 @@ class StackGuard {
 void check_number(lua_State* L, int index, const Key& key, const std::string& what) {
   if (lua_type(L, index) != LUA_TNUMBER) wrong(L, index, key, what);
   const double value = lua_tonumber(L, index);
+  if (std::isnan(value) && key.gaps) return;
   if (std::isnan(value)) throw ArgumentError(what + " must be a finite number, got nan (not a number)");
   if (std::isinf(value) && !key.infinite)
     throw ArgumentError(what + " must be a finite number, got " + number_text(value));
@@ -157,7 +158,7 @@ void check_items(lua_State* L, int index, lua_Integer items, const Key& table, c
 }  // namespace
 
 void check_value(lua_State* L, int index, const Key& key, const std::string& what) {
-  static const Key number = key::number("", ""), row = key::vector("", "");
+  static const Key number = key::number("", ""), row = key::vector("", ""), number_or_gap = key::number("", "").or_nan(), row_with_gaps = key::vector("", "").or_nan();
   index = lua_absindex(L, index);
   const int type = lua_type(L, index);
   const auto require = [&](int wanted) {
@@ -180,9 +181,9 @@ void check_value(lua_State* L, int index, const Key& key, const std::string& wha
       if (type == LUA_TNUMBER) return check_number(L, index, key, what);
       return check_entries(L, index, key, number, what);
     case Kind::vector:
-      return check_entries(L, index, key, number, what);
+      return check_entries(L, index, key, key.gaps ? number_or_gap : number, what);
     case Kind::matrix:
-      return check_entries(L, index, key, row, what);
+      return check_entries(L, index, key, key.gaps ? row_with_gaps : row, what);
     case Kind::list:
       return check_entries(L, index, key, key.items.front(), what);
     case Kind::function:

@@ -57,6 +57,7 @@ struct Key {
   double greatest = std::numeric_limits<double>::infinity();
   bool least_excluded = false, greatest_excluded = false;
   bool infinite = false;   // math.huge is a value
+  bool gaps = false;       // so is nan, in a vector or a matrix: there is none
   bool output = false;     // a file that the call writes
   std::size_t fewest = 0;  // entries of a vector, items of a list or table
   std::size_t most = std::numeric_limits<std::size_t>::max();
@@ -86,6 +87,7 @@ struct Key {
   Key& or_infinite() { return set(infinite, true); }                                            // math.huge as well
   Key& count(std::size_t exactly) { return count(exactly, exactly); }                           // entries or items
   Key& count(std::size_t least_count, std::size_t most_count) { return set(fewest, least_count).set(most, most_count); }
+  Key& or_nan() { return set(gaps, true); }                                                     // entries that are nan as well
   Key& some() { return count(1, std::numeric_limits<std::size_t>::max()); }                     // at least one
   Key& written() { return set(output, true); }                                                  // the call writes this file
   Key& with(Key item) { return set(items, {std::move(item)}); }                                 // a table that takes items as well as keys

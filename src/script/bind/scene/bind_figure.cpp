@@ -14,11 +14,13 @@ std::vector<Key> series_keys() {
   using S = SeriesPicture;
   return {
       key::string("name", "its name in the legend").into(&S::name),
-      key::vector("x", "abscissas").required().into(&S::x), key::vector("y", "ordinates; crossed points may have none").into(&S::y),
-      key::vector("low", "lower end of a spread").into(&S::low), key::vector("high", "upper end of a spread").into(&S::high),
+      key::vector("x", "abscissas").required().into(&S::x), key::vector("y", "ordinates, nan for a gap; crossed points may have none").or_nan().into(&S::y),
+      key::vector("low", "lower end of a spread, drawn as a band").into(&S::low), key::vector("high", "upper end of a spread").into(&S::high),
+      key::boolean("bars", "the spread as a whisker at each point instead").into(&S::bars),
       key::vector("x_low", "left end of a whisker at each point").into(&S::x_low), key::vector("x_high", "right end of it").into(&S::x_high),
       key::choice<SeriesStyle>("style", {{"line", SeriesStyle::line}, {"points", SeriesStyle::points}, {"both", SeriesStyle::both}}, "how it is drawn").into(&S::style),
-      key::boolean("reference", "a reference curve: dashed, without markers").into(&S::reference),
+      key::boolean("reference", "a reference curve: dashed, without markers; of several the names stand beside them, not in the legend").into(&S::reference),
+      key::choice<bool>("axis", {{"left", false}, {"right", true}}, "which y axis it has; on the right an arrow in the legend says so, or the colour of an axis that has no other series").into(&S::right),
       key::boolean("crossed", "markers pale and crossed out, for runs that failed; without y in a strip above "
                     "the plot, \"not converged\", a row for each such series").into(&S::crossed),
       key::boolean("front", "a broad pale line beneath all others, for what is best").into(&S::front),
@@ -27,12 +29,54 @@ std::vector<Key> series_keys() {
                            "with the colour and marker that contact nodes of this status have in scenes").otherwise("none").into(&S::status)};
 }
 
+Key map_key() {
+  using figure::ChartMap;
+  return key::table("map", {key::vector("x", "abscissas, ascending").some().required().into(&ChartMap::x), key::vector("y", "ordinates, ascending").some().required().into(&ChartMap::y),
+                            key::matrix("values", "a row for each y, nan where it does not apply").or_nan().required(),
+                            key::string("label", "of the colour bar; needed without 'names'; maps with one label have one scale in all panels").into(&ChartMap::label), key::string("unit", "of the values").into(&ChartMap::unit),
+                            key::list("names", key::string("", ""), "what the values 1, 2, … stand for, in place of a colour bar").count(1, figure::most_map_names).into(&ChartMap::names)},
+                    "coloured cells around the points of a grid, beneath the series");
+}
+
+// Of a chart, alone or a panel.
+std::vector<Key> chart_keys() {
+  using figure::ChartPicture;
+  using figure::ChartNote;
+  const Key note = key::table("", {key::number("x", "").required().into(&ChartNote::x), key::number("y", "").required().into(&ChartNote::y),
+                                   key::string("text", "").required().into(&ChartNote::text)}, "");
+  return {title_key("above the chart").into<ChartPicture>([](ChartPicture& chart) -> std::string& { return chart.title; }),
+          key::string("x", "label of the x axis").into(&ChartPicture::x_label), key::string("y", "label of the y axis").into(&ChartPicture::y_label),
+          key::string("y_right", "label of a second y axis, of the series whose axis is \"right\"").into(&ChartPicture::y_right_label),
+          key::choice("log", {"", "x", "y", "xy"}, "which axes are logarithmic; values of zero and below "
+                      "are left out, and counted on standard error").fallback(""),
+          key::list("series", key::table("", series_keys(), "one curve"), "the curves").some(),
+          map_key(),
+          key::list("categories", key::string("", ""), "names of x = 1, 2, … in place of numbers").some().into(&ChartPicture::categories),
+          key::vector("x_range", "ends of the x axis").count(2).otherwise("the data with a margin"),
+          key::vector("y_range", "ends of the y axis").count(2).otherwise("the data with a margin"),
+          key::vector("y_break", "{from, to}: what the y axis leaves out").count(2).otherwise("none").into(&ChartPicture::y_break),
+          key::boolean("polar", "x is an angle in degrees, anticlockwise from the right, y a radius").into(&ChartPicture::polar),
+          key::list("notes", note, "texts near points, which thin lines lead to").otherwise("none"),
+          key::vector("slopes", "guides of these slopes, each beside the curve of nearest slope").otherwise("none")};
+}
+
 SeriesPicture series_of(const Arguments& given) {
   const SeriesPicture series = given.filled<SeriesPicture>();
   if (!given.has("y") && !series.crossed) throw InputError(text("series '", series.name, "': missing key 'y'; only points that are crossed may have none"));
   if (given.has("y") && series.x.size() != series.y.size())
     throw InputError(text("series '", series.name, "' has ", series.x.size(), " x and ", series.y.size(), " y"));
   return series;
+}
+
+figure::ChartMap map_of(const Arguments& given) {
+  figure::ChartMap map = given.filled<figure::ChartMap>();
+  const std::vector<std::vector<double>> rows = given.matrix("values");
+  if (rows.size() != map.y.size()) throw InputError(text("'map': ", rows.size(), " rows of values for ", map.y.size(), " y"));
+  for (std::size_t j = 0; j < rows.size(); ++j) {
+    if (rows[j].size() != map.x.size()) throw InputError(text("'map': row ", j + 1, " has ", rows[j].size(), " values for ", map.x.size(), " x"));
+    map.values.insert(map.values.end(), rows[j].begin(), rows[j].end());
+  }
+  return map;
 }
 
 /// Says on standard error what logarithmic axes cannot show: "2 of 5 points of 'error'".
@@ -67,15 +111,18 @@ void read_chart(const Arguments& given, figure::ChartPicture& chart) {
   const std::string log = given.text("log");
   chart.log_x = log.find('x') != std::string::npos;
   chart.log_y = log.find('y') != std::string::npos;
+  if (!given.has("series") && !given.has("map")) throw InputError("missing key 'series' or 'map'");
   for (const Arguments& series : given.tables("series")) chart.series.push_back(series_of(series));
+  for (const Arguments& note : given.tables("notes")) chart.notes.push_back(note.filled<figure::ChartNote>());
+  if (given.has("map")) chart.map = map_of(given.table("map"));
   if (given.has("slopes"))
     for (const double slope : given.vector("slopes")) chart.slopes.push_back({slope, ""});
 }
 
 // Panels one below the other; x given for all is one axis.
 std::string chart_column(Call& call) {
-  for (const char* name : {"series", "slopes", "y", "log"})
-    if (call.has(name)) throw InputError(text("'", name, "' beside 'panels'; give it within each panel"));
+  for (const Key& key : chart_keys())
+    if (key.name != "title" && key.name != "x" && call.has(key.name)) throw InputError(text("'", key.name, "' beside 'panels'; give it within each panel"));
   figure::ChartColumn column;
   column.shared_x = call.has("x");
   for (const Arguments& panel : call.tables("panels")) {
@@ -96,7 +143,7 @@ std::string chart_column(Call& call) {
 
 std::string chart(Call& call) {
   if (call.has("panels")) return chart_column(call);
-  if (!call.has("series")) throw InputError("missing key 'series', or 'panels'");
+  if (!call.has("series") && !call.has("map")) throw InputError("missing key 'series', 'map' or 'panels'");
   if (call.has("columns")) throw InputError("'columns' without 'panels'");
   figure::ChartPicture picture;
   read_chart(call, picture);
@@ -105,27 +152,9 @@ std::string chart(Call& call) {
   return file;
 }
 
-Key series_key() {
-  return key::list("series", key::table("", series_keys(), "one curve"), "the curves").some();
-}
-
-// Of a chart, alone or a panel.
-std::vector<Key> chart_keys(Key series) {
-  using figure::ChartPicture;
-  return {title_key("above the chart").into<ChartPicture>([](ChartPicture& chart) -> std::string& { return chart.title; }),
-          key::string("x", "label of the x axis").into(&ChartPicture::x_label), key::string("y", "label of the y axis").into(&ChartPicture::y_label),
-          key::choice("log", {"", "x", "y", "xy"}, "which axes are logarithmic; values of zero and below "
-                      "are left out, and counted on standard error").fallback(""),
-          std::move(series),
-          key::vector("x_range", "ends of the x axis").count(2).otherwise("the data with a margin"),
-          key::vector("y_range", "ends of the y axis").count(2).otherwise("the data with a margin"),
-          key::vector("slopes", "guides of these slopes, each beside the curve of nearest slope").otherwise("none")};
-}
-
 std::vector<Key> figure_keys() {
-  const Key panel = key::table("", chart_keys(series_key().required()), "");
-  return joined(joined(joined({picture_key()}, chart_keys(series_key())),
-                {key::list("panels", panel, "instead of series, y, log and slopes: charts one below the other; an x beside them is one axis for all").count(1, 12),
+  return joined(joined(joined({picture_key()}, chart_keys()),
+                {key::list("panels", key::table("", chart_keys(), ""), "instead of all that but title and x: charts one below the other; an x beside them is one axis for all").count(1, 12),
                  key::integer("columns", "of the panels, which follow row by row").at_least(1).otherwise("1")}),
                 size_keys("{1000, 750}; with panels {1000, 60 and 260 for each row}"));
 }

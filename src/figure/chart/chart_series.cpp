@@ -1,0 +1,132 @@
+#include "figure/chart/chart_series.hpp"
+
+#include <limits>
+
+#include "figure/chart/hidden.hpp"
+
+namespace dotyk::figure {
+
+namespace {
+
+bool has_line(const SeriesPicture& s) { return !s.front && (s.style != SeriesStyle::points || s.reference); }
+bool has_markers(const SeriesPicture& s) { return s.style != SeriesStyle::line && !s.reference && !s.front; }
+
+bool dense(const std::vector<Point>& curve, double spacing) {
+  return curve.size() > 2 && std::abs(curve.back().x - curve.front().x) / static_cast<double>(curve.size() - 1) < spacing && curve.size() > 60;
+}
+
+}  // namespace
+
+// At every point that the axes show: across from x_low to x_high, upright from low to high.
+std::vector<std::array<Point, 2>> SeriesDrawing::whiskers(const SeriesPicture& s) const {
+  const Axes& axes = axes_.of(s);
+  std::vector<std::array<Point, 2>> out;
+  const auto add = [&](Point low, Point high) {
+    for (const Point& p : {low, high})
+      if (!axes.x.shows(p.x) || !axes.y.shows(p.y)) return;
+    out.push_back({axes.at(low.x, low.y), axes.at(high.x, high.y)});
+  };
+  for (std::size_t i = 0; i < s.x_low.size(); ++i) add({s.x_low[i], s.y[i]}, {s.x_high[i], s.y[i]});
+  for (std::size_t i = 0; s.bars && i < s.low.size(); ++i) add({s.x[i], s.low[i]}, {s.x[i], s.high[i]});
+  return out;
+}
+
+void SeriesDrawing::occupy(Occupied& occupied) const {
+  for (const Look& look : looks_) {
+    const SeriesPicture& s = look.data;
+    const Axes& axes = axes_.of(s);
+    for (const auto& [from, to] : whiskers(s)) occupied.add({from, to}, axes.room);
+    for (const auto* values : {&s.y, &s.low, &s.high})
+      for (const auto& curve : curves(s.x, *values, axes)) occupied.add(curve, axes.room);
+  }
+}
+
+void SeriesDrawing::draw_front(const Look& look) {
+  if (!look.data.front) return;
+  for (const auto& curve : curves(look.data.x, look.data.y, axes_.of(look.data))) {
+    canvas_.polyline(curve, pen_.front_width(), look.colour);
+    for (const Point& end : {curve.front(), curve.back()}) canvas_.disc(end, pen_.front_width() / 2, look.colour);
+  }
+}
+
+void SeriesDrawing::draw_band(const Look& look) {
+  const SeriesPicture& s = look.data;
+  const Axes& axes = axes_.of(s);
+  if (s.low.empty() || s.bars) return;
+  const double least = std::max(axes.y.low * 1e-6, std::numeric_limits<double>::denorm_min());
+  const auto at = [&](std::size_t i, double v) { return axes.at(s.x[i], axes.y.log ? std::max(v, least) : v); };
+  for (std::size_t i = 0; i + 1 < s.x.size(); ++i)
+    if (axes.x.shows(s.x[i]) && axes.x.shows(s.x[i + 1]))
+      canvas_.convex(std::array{at(i, s.low[i]), at(i + 1, s.low[i + 1]), at(i + 1, s.high[i + 1]), at(i, s.high[i])}, look.colour, 0.2);
+}
+
+// No line is hidden: where one lies beneath later ones it is broader than these.
+void SeriesDrawing::draw_lines() {
+  constexpr int kDeepest = 3;
+  const double width = pen_.line_width(), near = 0.75 * width, rim = 0.75 * width, least = 3 * pen_.em;
+  const Box& room = axes_.left.room;
+  std::vector<std::vector<std::vector<Point>>> lines;
+  std::vector<Neighbourhood> solid;  // about those that hide what is beneath
+  std::vector<std::size_t> of;       // whose they are
+  for (std::size_t k = 0; k < looks_.size(); ++k) {
+    const SeriesPicture& s = looks_[k].data;
+    lines.push_back(has_line(s) ? curves(s.x, s.y, axes_.of(s)) : std::vector<std::vector<Point>>());
+    if (looks_[k].dashed || lines[k].empty()) continue;
+    of.push_back(k);
+    solid.emplace_back(room, near);
+    for (const auto& curve : lines[k]) solid.back().add(curve);
+  }
+  for (std::size_t k = 0; k < looks_.size(); ++k) {
+    const std::vector<Neighbourhood> later(solid.begin() + (std::ranges::upper_bound(of, k) - of.begin()), solid.end());
+    for (const auto& curve : lines[k]) {
+      pen_.stroke(canvas_, curve, looks_[k]);
+      for (const HiddenPart& part : hidden_parts(curve, later, room, least)) pen_.stroke(canvas_, part.points, looks_[k], std::min(part.depth, kDeepest) * rim);
+    }
+  }
+}
+
+void SeriesDrawing::draw_curves() {
+  for (const Look& look : looks_) draw_front(look);
+  for (const Look& look : looks_) draw_band(look);
+  draw_lines();
+  for (const Look& look : looks_)
+    for (const auto& ends : whiskers(look.data)) pen_.whisker(canvas_, ends, look);
+}
+
+// A line needs no marker at every one of many points; points alone do.
+std::vector<Point> SeriesDrawing::marked(const SeriesPicture& s) const {
+  std::vector<Point> out;
+  if (!has_markers(s)) return out;
+  const Axes& axes = axes_.of(s);
+  for (const std::vector<Point>& run : runs(s.x, s.y, axes)) {
+    std::vector<Point> curve;
+    for (const Point& p : run)
+      if (!axes.y.left_out || !axes.y.left_out->hides(p.y)) curve.push_back(axes.at(p.x, p.y));
+    const double spacing = s.style == SeriesStyle::both && dense(curve, pen_.marker_size(s)) ? 0.08 * axes.room.width() : 0;
+    const Point* last = nullptr;
+    for (const Point& p : curve) {
+      if (!axes.room.holds(p, 0.5) || (last && length(p - *last) < spacing)) continue;
+      out.push_back(p), last = &p;
+    }
+  }
+  return out;
+}
+
+// Of points alone one that lies beneath later ones is larger; of curves the lines tell.
+void SeriesDrawing::draw_markers() {
+  constexpr std::ptrdiff_t kDeepest = 3;
+  const double near = 0.75 * pen_.line_width(), rim = 0.1 * pen_.em;
+  const Box room = axes_.left.room.grown(1);
+  std::vector<std::vector<Point>> places;
+  for (const Look& look : looks_) places.push_back(marked(look.data));
+  std::vector<Neighbourhood> later(looks_.size(), Neighbourhood(room, near));
+  for (std::size_t k = 0; k < looks_.size(); ++k)
+    for (const Point& p : places[k]) later[k].add(p);
+  for (std::size_t k = 0; k < looks_.size(); ++k)
+    for (const Point& p : places[k]) {
+      const auto above = looks_[k].data.style != SeriesStyle::points ? 0 : std::count_if(later.begin() + static_cast<std::ptrdiff_t>(k) + 1, later.end(), [&](const Neighbourhood& n) { return n.holds(p); });
+      pen_.mark(canvas_, looks_[k], p, static_cast<double>(std::min(above, kDeepest)) * rim);
+    }
+}
+
+}  // namespace dotyk::figure

@@ -1,0 +1,33 @@
+// Where a curve or marker would be hidden beneath later ones.
+#pragma once
+
+#include <vector>
+
+#include "figure/canvas/plane.hpp"
+
+namespace dotyk::figure {
+
+// The places of a room that lie within so many pixels of curves, or of points.
+class Neighbourhood {
+public:
+  Neighbourhood(const Box& room, double reach);
+  void add(const std::vector<Point>& curve);
+  void add(Point point);
+  bool holds(Point point) const;
+
+private:
+  Box room_;
+  double cell_, reach_;
+  int columns_, rows_;
+  std::vector<bool> cells_;  // which have a point in them
+};
+
+// A part of a curve that so many later curves hide.
+struct HiddenPart {
+  std::vector<Point> points;
+  int depth = 0;
+};
+// Those longer than `least` pixels.
+std::vector<HiddenPart> hidden_parts(const std::vector<Point>& curve, const std::vector<Neighbourhood>& later, const Box& room, double least);
+
+}  // namespace dotyk::figure

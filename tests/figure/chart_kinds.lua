@@ -1,0 +1,107 @@
+-- Kinds of charts, by what stands in their SVG: maps, polar axes, categories, a second axis, a broken one.
+local check <const> = require "check"
+local svg <const> = require "svg"
+local refused <const> = require "refused"
+local curve <const> = { name = "a", x = { 1, 2, 3 }, y = { 1, 2, 4 } }
+local nan <const> = 0/0
+
+local function drawn(options)
+  options.file = options.file or "kinds.svg"
+  return svg(dotyk.chart(options))
+end
+local function wrong(options, ...)
+  options.file = "kinds.svg"
+  refused(function() dotyk.chart(options) end, ...)
+end
+
+-- 1. Categories stand at x = 1, 2, …, level in one line or two, else upright, and never below 7 points.
+local few <const> = drawn{ categories = { "pdas", "active set" }, series = { curve } }
+local left <const>, right <const> = few:text "pdas", few:text "active set"
+check.that(left.x < right.x and math.abs(left.y - right.y) < 0.1 and not left.upright)
+check.that(not few:text "1.5" and few:text "4", "ticks of y alone")
+local five <const> = drawn{ categories = { "pdas", "interior point", "newton", "proximal points", "cg" }, series = { curve } }
+local two <const> = five:text "interior"
+check.that(two and five:text "point" and two.y < five:text "point".y, "in two lines")
+local many <const> = drawn{ categories = { "interior_point", "projected_cg", "uzawa_pdas", "active_set", "multigrid", "coulomb_loop", "feti" }, series = { curve } }
+check.that(many:text "interior_point".upright and many:text "feti".upright)
+for _, it in ipairs{ few, five, many } do check.that(it.least >= 7, it.least) end
+wrong({ categories = { "a" }, log = "x", series = { curve } }, "'categories' together with a logarithmic x axis or 'x_range'")
+wrong({ categories = { "a" }, x_range = { 0, 2 }, series = { curve } }, "'categories'")
+wrong({ x = "x", panels = { { categories = { "a" }, series = { curve } }, { series = { curve } } } }, "have the same categories")
+
+-- 2. The axis on the right: ticks in the colour of its only series, else an arrow in the legend.
+local twin <const> = drawn{ y = "seconds", y_right = "memory", series = { curve, { name = "held", x = { 1, 2 }, y = { 1000, 4000 }, axis = "right" } } }
+check.equal(twin:text "memory".fill, "#d55e00")
+check.equal(twin:text "3000".fill, "#d55e00")
+check.that(twin:text "3000".x > twin:text "seconds".x + 500 and twin:text "held")
+local both <const> = drawn{ y_right = "memory", series = { curve, { name = "b", x = { 1 }, y = { 1000 }, axis = "right" }, { name = "c", x = { 1 }, y = { 4000 }, axis = "right" } } }
+check.equal(both:text "memory".fill, both:text "3000".fill)
+check.that(both:text "b →" and both:text "c →" and both:text "memory".fill ~= "#d55e00")
+wrong({ series = { { x = { 1 }, y = { 1 }, axis = "right" } } }, "one must be on the left")
+wrong({ y_right = "memory", series = { curve } }, "'y_right' without a series")
+wrong({ series = { { x = { 1 }, y = { 1 }, axis = "up" } } }, '"left" or "right"')
+
+-- 3. A broken axis: its ticks leave out what lies between, and above the gap a step is as long as below.
+local gap <const> = drawn{ y_break = { 2500, 8500 }, series = { { name = "p", x = { 1, 2, 3, 4 }, y = { 1000, 1500, 1600, 9200 } } } }
+check.that(gap:text "1000" and gap:text "2000" and gap:text "9000" and not gap:text "3000" and not gap:text "8000")
+local step <const> = gap:text "1000".y - gap:text "2000".y
+check.that(gap:text "2000".y - gap:text "9000".y < 2 * step, "7000 take less than 2000")
+local bent -- where it passes the gap: two more points, at its edges
+for _, line in ipairs(gap.lines) do bent = bent or (line.stroke == "#0072b2" and #line.points == 6 and line) end
+check.that(bent.points[4].y - bent.points[5].y < 20 and bent.points[3].y - bent.points[4].y > 100)
+wrong({ y_break = { 1, 2 }, log = "y", series = { curve } }, "'y_break' from 1 to 2 on a logarithmic axis")
+wrong({ y_break = { 2, 1.5 }, series = { curve } }, "'y_break' from 2 to 1.5; the first must be the lesser")
+wrong({ y_break = { 2, 9 }, series = { curve } }, "must lie within the y axis, from 1 to 4")
+wrong({ y_break = { 2, 3 }, slopes = { 1 }, series = { curve } }, "'y_break' from 2 to 3 together with")
+
+-- 4. Maps: cells meet halfway, on logarithmic axes between the logarithms; nan is crossed out.
+local log <const> = drawn{ log = "x", map = { x = { 1, 100 }, y = { 1, 2, 3 }, values = { { 1, 2 }, { 2, nan }, { 3, 4 } }, label = "iterations", unit = "1" } }
+check.that(log:text "iterations [1]" and log:text "not applicable" and log:text "max 4" and log:text "min 1")
+local cell <const> = log:filled "#440154"[1]
+check.that(cell.left < log:text "10⁰".x and math.abs(log:text "10¹".x + 15 - cell.right) < 15, "the border is at 10")
+check.near(cell.bottom - cell.top, (log:filled "#440154"[1].bottom - log:filled "#fde725"[1].top) / 3, 1)
+local names <const> = { "converges", "stalls", "diverges", "cycles", "refused", "crashes" }
+local six <const> = drawn{ map = { x = { 1, 2, 3 }, y = { 1, 2 }, values = { { 1, 2, 3 }, { 4, 5, 6 } }, names = names } }
+local grey = {}
+for _, colour in ipairs{ "#d6ecf8", "#d6601e", "#145fa0", "#f6c83c", "#5abe96", "#460a46" } do
+  check.equal(#six:filled(colour), 2, colour .. ": a cell and its sample in the legend")
+  local r <const>, g <const>, b <const> = colour:match "#(..)(..)(..)"
+  grey[#grey + 1] = 0.299 * tonumber(r, 16) + 0.587 * tonumber(g, 16) + 0.114 * tonumber(b, 16)
+end
+table.sort(grey)
+for k = 2, 6 do check.that(grey[k] - grey[k - 1] > 25, "told apart in grey") end
+for _, name in ipairs(names) do check.that(six:text(name), name) end
+check.that(not six:text "not applicable" and not six:text "max 6", "no bar of colours")
+check.that(six:text "1" and six:text "2" and not six:text "1.5", "ticks at the values")
+-- In panels maps with one label have one scale.
+local function half(high) return { map = { x = { 1, 2 }, y = { 1 }, values = { { 0, high } }, label = "steps" } } end
+local shared <const> = drawn{ x = "x", panels = { half(1), half(2) } }
+check.that(#shared:filled "#fde725" > 0 and #shared:filled "#21918c" > 0, "1 is in the middle of 0 to 2")
+wrong({ map = { x = { 1, 2 }, y = { 1 }, values = { { 1 } }, label = "a" } }, "row 1 has 1 values for 2 x")
+wrong({ map = { x = { 1 }, y = { 1 }, values = { { 1 }, { 1 } }, label = "a" } }, "2 rows of values for 1 y")
+wrong({ map = { x = { 2, 1 }, y = { 1 }, values = { { 1, 1 } }, label = "a" } }, "'map': x must ascend; 1 follows 2")
+wrong({ map = { x = { 0, 1 }, y = { 1 }, values = { { 1, 1 } }, label = "a" }, log = "x" }, "'map': x begins at 0")
+wrong({ map = { x = { 1 }, y = { 1 }, values = { { 1 } } } }, "needs a 'label' for the colour bar, or 'names'")
+wrong({ map = { x = { 1 }, y = { 1 }, values = { { 3 } }, names = { "a", "b" } } }, "the value 3 has no name; with 2 names values are 1 to 2")
+wrong({ map = { x = { 1 }, y = { 1 }, values = { { 1 } }, label = "a" }, x_range = { 0, 1 } }, "'map' together with 'x_range'")
+wrong({ title = "none" }, "missing key 'series', 'map' or 'panels'")
+wrong({ panels = { { title = "none" } } }, "missing key 'series' or 'map'")
+
+-- 5. Polar axes: 0 at the centre, angles anticlockwise from the right, arcs between points of one radius.
+local polar <const> = drawn{ polar = true, x = "direction", y = "force", series = { { name = "ring", x = { 0, 90, 180, 270, 360 }, y = { 2, 2, 2, 2, 2 }, style = "line" } } }
+local east <const>, north <const>, west <const>, south <const> = polar:text "0°", polar:text "90°", polar:text "180°", polar:text "270°"
+check.that(east.x > west.x and north.y < south.y)
+local ring
+for _, line in ipairs(polar.lines) do if line.stroke == "#0072b2" and #line.points > 100 then ring = line.points end end
+local centre <const> = { x = (ring[1].x + ring[91].x) / 2, y = ring[1].y }
+for _, p in ipairs(ring) do check.near(math.sqrt((p.x - centre.x)^2 + (p.y - centre.y)^2), ring[1].x - centre.x, 0.1) end
+check.that(ring[46].y < centre.y, "90° is above")
+check.that(polar:text "1" and polar:text "2" and not polar:text "0")
+check.that(polar.least >= 7, polar.least)
+local sectors <const> = drawn{ polar = true, map = { x = { 0, 90, 180, 270 }, y = { 1, 2 }, values = { { 1, 1, 1, 1 }, { 2, 2, 1, 1 } }, names = { "in", "out" } } }
+check.equal(#sectors:filled "#d6601e", 3)
+wrong({ polar = true, log = "y", series = { curve } }, "'polar' together with 'log'")
+wrong({ polar = true, y_range = { 0, 1 }, series = { curve } }, "'polar' together with 'y_range'")
+wrong({ polar = true, series = { { name = "a", x = { 1 }, y = { -1 } } } }, 'series "a": the radius -1 is negative')
+wrong({ polar = true, series = { curve, { name = "b", x = { 1 }, y = { 1 }, axis = "right" } } }, "no place in a polar chart")
+os.remove "kinds.svg"

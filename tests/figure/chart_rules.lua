@@ -1,0 +1,100 @@
+-- Rules of all charts, by what stands in their SVG: names beside reference curves, no line hidden, gaps, whiskers, notes.
+local check <const> = require "check"
+local svg <const> = require "svg"
+local refused <const> = require "refused"
+local nan <const> = 0/0
+local blue <const>, orange <const> = "#0072b2", "#d55e00"
+
+local function drawn(options)
+  options.file = "rules.svg"
+  return svg(dotyk.chart(options))
+end
+local function lines_of(it, colour)
+  local out <const> = {}
+  for _, line in ipairs(it.lines) do if line.stroke == colour then out[#out + 1] = line end end
+  return out
+end
+local function least_distance(text, line) -- from the beginning of a text to the points of a line, about
+  local least = math.huge
+  for i = 1, #line.points - 1 do
+    for k = 0, 200 do
+      local p <const>, q <const> = line.points[i], line.points[i + 1]
+      least = math.min(least, math.abs(p.y + (q.y - p.y) * k / 200 - text.y) + math.max(0, text.x - (p.x + (q.x - p.x) * k / 200)))
+    end
+  end
+  return least
+end
+
+-- 1. One reference curve is in the legend. Of several each name stands near its own curve, and no sample in a legend.
+local curve <const> = { name = "found", x = { 1, 2, 3 }, y = { 1, 1.2, 1.1 }, style = "points" }
+local function level(name, y) return { name = name, x = { 1, 3 }, y = { y, y }, reference = true } end
+local one <const> = drawn{ series = { curve, level("theory", 2) } }
+check.equal(#lines_of(one, "#5a5a5a"), 2, "the curve and its sample")
+local two <const> = drawn{ series = { curve, level("upper bound", 2), level("lower bound", 0.5) } }
+local dashed <const> = lines_of(two, "#5a5a5a")
+check.equal(#dashed, 2, "the curves alone")
+check.that(least_distance(two:text "upper bound", dashed[1]) < 60 and least_distance(two:text "lower bound", dashed[2]) < 60)
+check.that(math.abs(two:text "upper bound".y - dashed[2].top) > 100)
+check.that(two:text "found" and two.least >= 7)
+-- Beside an upright line that leaves too little room the name is upright too.
+local slim <const> = drawn{ x_range = { 0, 1 }, series = { { x = { 0, 0.9 }, y = { 0, 1 } }, { name = "a", x = { 0.5, 0.5 }, y = { 0, 1 }, reference = true },
+  { name = ("long name "):rep(4), x = { 0.05, 0.05 }, y = { 0, 1 }, reference = true } } }
+check.that(slim:text "a")
+
+-- 2. Where a curve lies beneath a later one it is broader, along that stretch alone; beneath two, broader still.
+local x <const>, same <const>, leaves <const> = { 1, 2, 3, 4, 5 }, { 1, 2, 3, 4, 5 }, { 1, 2, 3, 1, 0 }
+local function line(name, y) return { name = name, x = x, y = y, style = "line" } end
+local alone <const> = lines_of(drawn{ series = { line("a", same), line("b", { 5, 4, 3, 2, 1 }) } }, blue)
+check.equal(#alone, 2, "a crossing hides nothing: the curve, its sample")
+local hidden <const> = drawn{ series = { line("a", same), line("b", leaves) } }
+local under <const>, over <const> = lines_of(hidden, blue), lines_of(hidden, orange)
+check.equal(#under, 3, "the curve, the part beneath, the sample")
+local plain, broad = under[1], under[2]
+check.that(broad.width > 2 * plain.width and math.abs(over[1].width - plain.width) < 0.01)
+check.that(math.abs(broad.left - plain.left) < 5 and broad.right < plain.left + 0.6 * (plain.right - plain.left), "until they part")
+local three <const> = lines_of(drawn{ series = { line("a", same), line("b", same), line("c", same) } }, blue)
+check.that(three[2].width > broad.width)
+-- Beneath dashes nothing is hidden; markers beneath markers are larger.
+check.equal(#lines_of(drawn{ series = { line("a", same), { x = x, y = same, reference = true } } }, blue), 2)
+
+-- 3. nan is a gap.
+local gap <const> = drawn{ series = { { name = "a", x = { 1, 2, 3, 4 }, y = { 1, 2, nan, 3 }, style = "line" }, { name = "b", x = { 1, 2, 3, 4, 5 }, y = { 1, 2, nan, 1, 5 }, style = "line" } } }
+check.equal(#lines_of(gap, orange), 3, "two pieces and the sample")
+refused(function() dotyk.chart{ file = "rules.svg", series = { { x = { 1, nan }, y = { 1, 2 } } } } end, "'x': entry 2 must be a finite number, got nan")
+
+-- 4. Whiskers: upright from low to high with caps, in place of the band.
+local spread <const> = { name = "a", x = { 1, 2 }, y = { 2, 3 }, low = { 1, 2 }, high = { 4, 5 }, style = "points", bars = true }
+local bars <const> = drawn{ series = { spread } }
+local upright, caps = 0, 0
+for _, mark in ipairs(lines_of(bars, blue)) do
+  if mark.left == mark.right then upright = upright + 1 elseif mark.top == mark.bottom then caps = caps + 1 end
+end
+check.equal({ upright, caps }, { 3, 6 }) -- with the legend's
+refused(function() dotyk.chart{ file = "rules.svg", series = { { name = "a", x = { 1 }, y = { 1 }, bars = true } } } end, 'series "a": \'bars\' without \'low\' and \'high\'')
+
+-- 5. Notes: near their points, off the curves, with a line from the point.
+local noted <const> = drawn{ series = { curve }, notes = { { x = 2, y = 1.2, text = "here" } } }
+local leaders <const> = {}
+for _, mark in ipairs(lines_of(noted, "#1e1e1e")) do if #mark.points == 2 and math.abs(mark.width - 1.7) < 0.1 then leaders[#leaders + 1] = mark.points end end
+check.equal(#leaders, 1)
+local here <const>, leader <const> = noted:text "here", leaders[1]
+check.that(math.abs(leader[2].y - here.y) < 40 and leader[2].x > here.x - 10 and leader[2].x < here.x + 80, "to the text")
+check.that(noted.least >= 7)
+refused(function() dotyk.chart{ file = "rules.svg", log = "x", series = { curve }, notes = { { x = 0, y = 1, text = "zero" } } } end, 'the note "zero" has no place on a logarithmic axis')
+refused(function() dotyk.chart{ file = "rules.svg", series = { curve }, notes = { { x = 1, y = 1 } } } end, "missing key 'text'")
+refused(function() dotyk.chart{ file = "rules.svg", notes = {}, panels = { { series = { curve } } } } end, "'notes' beside 'panels'")
+
+-- Equal pictures give equal bytes.
+local content <const> = require "bytes_of"
+for _, options in ipairs{ { series = { line("a", same), line("b", leaves), level("c", 1), level("d", 2) } }, { polar = true, series = { line("a", same) }, notes = { { x = 3, y = 3, text = "three" } } } } do
+  for _, ending in ipairs{ "pdf", "png", "svg" } do
+    options.file = "first." .. ending
+    dotyk.chart(options)
+    options.file = "again." .. ending
+    dotyk.chart(options)
+    check.equal(content("first." .. ending) == content("again." .. ending), true)
+    os.remove("first." .. ending)
+    os.remove("again." .. ending)
+  end
+end
+os.remove "rules.svg"
