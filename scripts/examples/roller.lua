@@ -295,8 +295,9 @@ local function over_mean(r)
   return x, p
 end
 local alone <const> = optimise("free", cells, { splines = true })
+local peak <const> = math.max(table.unpack((select(2, pressures(free.straight)))))
 dotyk.chart{ file = "images/roller.png", size = { 1000, 1250 }, panels = {
-  { x = "x [mm]", y = "contact pressure [MPa]", y_break = { 2500, 8500 }, series = {
+  { x = "x [mm]", y = "contact pressure [MPa]", y_break = { 2500, 500 * (0.94 * peak // 500) }, series = {
     series("straight", "line", pressures(free.straight)), series("optimised", "line", pressures(free.best)),
     series("Lundberg's, fitted", "line", pressures(free.rounded)) } },
   { x = "x/a", y = "pressure / mean", x_range = { 0.9, 1.002 }, y_range = { 0.79, 1.21 }, series = {
