@@ -42,8 +42,8 @@ Key map_key() {
 std::vector<Key> chart_keys() {
   using figure::ChartPicture;
   using figure::ChartNote;
-  const Key note = key::table("", {key::number("x", "").required().into(&ChartNote::x), key::number("y", "").required().into(&ChartNote::y),
-                                   key::string("text", "").required().into(&ChartNote::text)}, "");
+  const Key note = key::table("", {key::number("x", "abscissa of the point").required().into(&ChartNote::x), key::number("y", "ordinate of it").required().into(&ChartNote::y),
+                                   key::string("text", "what is said of it").required().into(&ChartNote::text)}, "");
   return {title_key("above the chart").into<ChartPicture>([](ChartPicture& chart) -> std::string& { return chart.title; }),
           key::string("x", "label of the x axis").into(&ChartPicture::x_label), key::string("y", "label of the y axis").into(&ChartPicture::y_label),
           key::string("y_right", "label of a second y axis, of the series whose axis is \"right\"").into(&ChartPicture::y_right_label),
