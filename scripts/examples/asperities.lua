@@ -38,7 +38,8 @@ for _, c in ipairs{ 1e7, 1e8, 1e9, 1e11, math.huge } do
   print(("%10.0e   %10.3f   %13.3f   %15.3f"):format(c, result.max_pressure / 1e3, -result.force[2] / 1e3, half))
   assert(off < 1e-9 * result.max_pressure and -result.force[2] > last) -- on the law; a stiffer contact bears more
   last = -result.force[2]
-  series[#series + 1] = drawn(smooth and "smooth (Signorini)" or ("c = 10%s N/mm⁴"):format(raised[c]), result, { style = "line", reference = smooth })
+  series[#series + 1] = drawn(smooth and "smooth (Signorini)" or ("c = 10%s"):format(raised[c]), result, { style = "line", reference = smooth })
 end
-dotyk.chart{ file = "images/asperities.png", title = "A rigid parabola on a rough block", x = "x [mm]", y = "pressure [GPa]", series = series }
+dotyk.chart{ file = "images/asperities.png", title = "Rough block, stiffness c in N/mm⁴", x = "x [mm]", y = "pressure [GPa]",
+             x_range = { -0.35, 0.35 }, y_range = { -0.4, 12 }, series = series }
 print "images/asperities.png"

@@ -85,11 +85,11 @@ local function every_sixth(curve)
   return out
 end
 local whole <const>, broken <const> = every_sixth(curves.whole), every_sixth(curves.broken)
-dotyk.chart{ file = "images/breaking.png", title = "A cantilever's tip on a spring that breaks", x = "force", y = "tip, downwards",
-  series = { { name = "whole", x = whole.x, y = whole.y, style = "points" },
-             { name = "broken", x = broken.x, y = broken.y, style = "points" },
-             { name = "loading, by steps", x = up.force, y = up.tip, style = "line" },
-             { name = "unloading, by steps", x = down.force, y = down.tip, reference = true } } }
+dotyk.chart{ file = "images/breaking.png", title = "A cantilever's tip on a spring that breaks", x = "force", y = "deflection of the tip",
+  series = { { name = "spring whole", x = whole.x, y = whole.y, style = "points" },
+             { name = "spring broken", x = broken.x, y = broken.y, style = "points" },
+             { name = "loading", x = up.force, y = up.tip, style = "line" },
+             { name = "unloading", x = down.force, y = down.tip, reference = true } } }
 dotyk.chart{ file = "images/breaking_energy.png", title = "Energy of the beam and its spring", x = "force", y = "energy",
   series = { { name = "whole", x = curves.whole.y, y = curves.whole.energy, style = "line" },
              { name = "broken", x = curves.broken.y, y = curves.broken.energy, style = "line" } } }
@@ -191,7 +191,7 @@ for _, at in ipairs{ { 1.2, 2 }, { 1, 1.6, 2 } } do
       end
       series[i] = curve
     end
-    dotyk.chart{ file = "images/breaking_branches.png", title = "Three springs: o whole, x broken", x = "force", y = "tip, downwards", series = series }
+    dotyk.chart{ file = "images/breaking_branches.png", title = "Springs from the wall: o whole, x broken", x = "force", y = "deflection of the tip", series = series }
   end
 end
 print "images/breaking.png, images/breaking_energy.png, images/breaking_states.png, images/breaking_branches.png"

@@ -88,5 +88,5 @@ for number, kind in ipairs(kinds) do
   end
 end
 dotyk.chart{ file = "images/foundation.png", title = "A strip pressed in its middle", x = "distance from the middle",
-  y = "pressure / (½ λ load), λ of the beam", series = series }
+  y = "pressure / peak of beam theory", series = series }
 print "images/foundation.png, images/foundation_strip.png"

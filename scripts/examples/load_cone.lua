@@ -124,7 +124,7 @@ print(("space: %d directions of the lower hemisphere, %d wrong"):format(count, s
 
 table.insert(series, 1, all_refused)
 dotyk.chart{ file = "images/load_cone.png", polar = true, x = "direction of the load", y = "case", series = series, size = { 1000, 1150 } }
-dotyk.chart{ file = "images/load_hemisphere.png", polar = true, x = "longitude of the load's direction", y = "degrees from straight down",
+dotyk.chart{ file = "images/load_hemisphere.png", polar = true, x = "longitude of the load's direction", y = "angle from straight down [°]",
              map = sphere, size = { 1000, 1100 } }
 print "images/load_cone.png, images/load_hemisphere.png"
 if wrong + spherical > 0 then error(wrong + spherical .. " verdicts are wrong") end

@@ -64,6 +64,13 @@ function common.curve(name, options)
   return setmetatable(curve, { __index = { add = function(self, x, y) self.x[#self.x + 1], self.y[#self.y + 1] = x, y end } })
 end
 
+-- The name of a method in a figure: "projected CG" for projected_cg.
+function common.method(name)
+  if name == "pdas" or name == "psor" or name == "feti" then return name:upper() end
+  if name == "newton" or name == "uzawa" then return (name:gsub("^%l", string.upper)) end
+  return (name:gsub("_", " "):gsub("cg$", "CG"):gsub(" pdas$", " PDAS"):gsub("^uzawa", "Uzawa"):gsub("^coulomb", "Coulomb"))
+end
+
 -- How far the forces of two solutions on a contact are apart: the greatest difference of a node's normal force
 -- or shear, over the greatest normal force.
 function common.apart(s, t, contact)

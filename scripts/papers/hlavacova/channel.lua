@@ -59,12 +59,12 @@ end
 local profiles = {}
 for i = 0, 5 do
   local x, y = profile(function(s) return electric:periodic(s, i / 6) end)
-  profiles[#profiles + 1] = { name = ("t = %s"):format(({ "0", "T/6", "T/3", "T/2", "2T/3", "5T/6" })[i + 1]), x = x, y = y, style = i % 3 == 1 and "line" or "both", twin = i % 3 == 2 or nil }
+  profiles[#profiles + 1] = { name = ("%s"):format(({ "t = 0", "T/6", "T/3", "T/2", "2T/3", "5T/6" })[i + 1]), x = x, y = y, style = i % 3 == 1 and "line" or "both", twin = i % 3 == 2 or nil }
 end
 local x, y = profile(function(s) return electric:stationary(s) end)
 profiles[#profiles + 1] = { name = "stationary", x = x, y = y, reference = true }
-dotyk.chart{ file = "images/channel.png", x = "y / y₀", y = "velocity [m/s]", series = profiles,
-  title = ("Mercury, M = %.1f, electric field of 1 Hz"):format(electric.hartmann) }
+dotyk.chart{ file = "images/channel.png", x = "distance from the axis / half width", y = "velocity [m/s]", series = profiles,
+  title = ("Mercury, Hartmann number %.1f, period T"):format(electric.hartmann) }
 
 -- 3. On the axis, from the start.
 local function on_axis(channel)
@@ -75,7 +75,7 @@ end
 local xe, ye = on_axis(electric)
 local xm, ym = on_axis(magnetic)
 dotyk.chart{ file = "images/channel_axis.png", x = "time [s]", y = "velocity on the axis [m/s]",
-  title = "Mercury, from the start to the periodic state", series = {
+  title = "Mercury, from start to periodic state", series = {
     { name = "electric field oscillating", x = xe, y = ye, style = "line" },
     { name = "magnetic field oscillating", x = xm, y = ym, twin = true, style = "line" },
     { name = "both, by time stepping", x = stepped.x, y = stepped.y, style = "points" } } }
@@ -110,10 +110,10 @@ for _, liquid in ipairs{ { name = "salt water", make = salt_water },
   assert(math.abs(slope + 1) < 1e-6 and math.abs(make(omega):amplitude() * a * omega - 1) < 1e-6)
   local claim, limit = inverse(slow, 1, 10), inverse(1 / a, 100, 10)
   series[#series + 1] = { name = liquid.name, x = curve.x, y = curve.y, style = "line" }
-  series[#series + 1] = { name = liquid.name .. ": A(0)/ω", x = claim.x, y = claim.y, style = "line", twin = true }
+  series[#series + 1] = { name = liquid.name .. ": A₀/ω", x = claim.x, y = claim.y, style = "line", twin = true }
   for i = 1, #limit.x do table.insert(limits.x, limit.x[i]) table.insert(limits.y, limit.y[i]) end
 end
-series[#series + 1] = { name = "1/(aω)", x = limits.x, y = limits.y, style = "points" }
-dotyk.chart{ file = "images/channel_amplitude.png", title = "The oscillating part fades with ω", x = "ω [1/s]", y = "amplitude [m/s]", log = "xy",
+series[#series + 1] = { name = "theory, 1/(aω)", x = limits.x, y = limits.y, style = "points" }
+dotyk.chart{ file = "images/channel_amplitude.png", title = "Amplitude of the oscillating velocity", x = "angular frequency ω [1/s]", y = "amplitude [m/s]", log = "xy",
   slopes = { -1 }, series = series }
 print "images/channel.png  images/channel_axis.png  images/channel_amplitude.png"

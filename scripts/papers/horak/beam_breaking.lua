@@ -133,7 +133,7 @@ end
 dotyk.chart{ file = "images/papers_beam_breaking.png", columns = 2, size = { 2100, 1400 }, panels = {
   { title = "Force on the latch", x = "time [min]", y = "force [N]", series = force },
   { title = "Deflection of the end", x = "time [min]", y = "deflection [mm]", series = deflection },
-  { title = "Strong coupling: time of the break", x = "step", y = "error", log = "xy", series = times_off, slopes = { 1, 2 } },
-  { title = "Strong coupling: deflection of the end", x = "step", y = "error", log = "xy", series = ends_off, slopes = { 1, 2 } },
+  { title = "Strong coupling: time of the break", x = "time step", y = "error of the time", log = "xy", series = times_off, slopes = { 1, 2 } },
+  { title = "Strong coupling: deflection of the end", x = "time step", y = "error of the deflection", log = "xy", series = ends_off, slopes = { 1, 2 } },
 } }
 print "images/papers_beam_breaking.png"

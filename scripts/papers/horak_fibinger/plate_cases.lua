@@ -122,7 +122,7 @@ local function sweep(title, loads, deflection, load_of, x, y)
     assert(math.abs(curves[i].y[#loads] - limit[i]) < 0.1 * 1000 * height) -- the last one is near the limit
   end
   curves[4] = { name = "limit, closed form", x = { x, x, x }, y = limit, style = "points" }
-  return { title = title, x = "resultant of the load, downwards", y = "u · 10³", series = curves }
+  return { title = title, x = "resultant of the load, downwards", y = "deflection u · 10³", series = curves }
 end
 local near <const> = { 0.05, 0.02, 0.01, 0.005 } -- below the limit
 local pressing <const>, sliding <const> = {}, {}
@@ -152,7 +152,7 @@ for _, element in ipairs{ "morley", "hct" } do
     print(line)
   end
 end
-panels[4] = { title = "Springs against a rigid edge", x = "1 / k", y = "relative error", log = "xy", series = apart, slopes = { 1 } }
+panels[4] = { title = "Springs against a rigid edge", x = "compliance 1/k of the springs", y = "relative error", log = "xy", series = apart, slopes = { 1 } }
 dotyk.chart{ file = "images/plate_cases.png", panels = panels, columns = 2, size = { 2100, 1400 } }
 solve(cells, "hct", waves(0.005), edges.signorini):render{ file = "images/plate_limit.png",
   title = "Waves that hardly press on a one-sided edge" }

@@ -131,10 +131,10 @@ for k, d in ipairs(drawn) do
       before = node
     end
   end
-  panels[k] = { title = d.case.name:gsub("space, ", ""):gsub("^%l", string.upper), y = "x2", series = series,
+  panels[k] = { title = d.case.name:gsub("space, ", ""):gsub("^%l", string.upper), y = "x₂", series = series,
                 x_range = { -0.1, 1.1 }, y_range = { -0.1, 1.1 } }
 end
-dotyk.chart{ file = "images/screws.png", x = "x1", panels = panels, columns = 2, size = { 1100, 1150 } }
+dotyk.chart{ file = "images/screws.png", x = "x₁", panels = panels, columns = 2, size = { 1100, 1150 } }
 print "images/screws.png"
 if worst > 1e-8 then error "screws end elsewhere than the exact kernel" end
 if moved == 0 then error "no screw was placed wrong" end

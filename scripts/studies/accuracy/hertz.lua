@@ -52,15 +52,15 @@ print(s)
 -- 3. Figures.
 s:render{ file = "images/hertz.png", field = "von_mises", window = {-5, -2, 5, 5}, units = { length = "mm", stress = "MPa" } }
 local x, p, hx, hp = {}, {}, {}, {}
-for _, node in ipairs(result.nodes) do
-  if math.abs(node.x) < 1.6 * result.a then
+for i, node in ipairs(result.nodes) do
+  if i % 3 == 0 and math.abs(node.x) < 1.6 * result.a then -- every third, beside the curve
     x[#x + 1], p[#p + 1] = node.x, node.pressure
   end
 end
 for i = -100, 100 do
   hx[#hx + 1], hp[#hp + 1] = result.a * i / 100, result.p0 * math.sqrt(1 - (i / 100)^2)
 end
-dotyk.chart{ file = "images/hertz_pressure.png", x = "x [mm]", y = "contact pressure [MPa]",
+dotyk.chart{ file = "images/hertz_pressure.png", x = "x [mm]", y = "contact pressure [MPa]", y_range = { -150, 1.05 * result.p0 },
              series = { { name = "nodes", x = x, y = p, style = "points" },
                         { name = "Hertz", x = hx, y = hp, reference = true } } }
 print "images/hertz.png, images/hertz_pressure.png"

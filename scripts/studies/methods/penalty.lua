@@ -51,9 +51,9 @@ print(("classical: at best %.0e of the forces, at factor %.0e; pdas takes %d ite
   best.error, best.factor, exact.iterations))
 
 -- 3. The figure.
-dotyk.chart{ file = "images/penalty.png", x = "stiffness of the springs / of the contact nodes", y = "relative error",
+dotyk.chart{ file = "images/penalty.png", x = "stiffness of springs / of contact nodes", y = "relative error",
   log = "xy", slopes = { -1, 1 }, series = {
-    { name = "forces, classical", x = classical.x, y = classical.y },
-    { name = "forces, on the contact rows", x = rows.x, y = rows.y },
-    { name = "energy: the method's own estimate", x = said.x, y = said.y, style = "line" } } }
+    { name = "forces, classical penalty", x = classical.x, y = classical.y },
+    { name = "forces, as unknowns", x = rows.x, y = rows.y },
+    { name = "energy, own estimate", x = said.x, y = said.y, style = "line" } } }
 print "images/penalty.png"

@@ -28,7 +28,7 @@ local methods <const> = { "pdas", "active_set", "interior_point", "newton", "pro
 local rubbing <const> = { newton = true, psor = true, uzawa = true }
 local worst, inner, sets, wrong, most, unconverged = 0, 0, 0, 0, 0, 0
 local pressed, apart = {}, {} -- iterations where δ < 0 and where δ > 0, against |δ|
-for k, name in ipairs(methods) do pressed[k], apart[k] = common.curve(name), common.curve(name) end
+for k, name in ipairs(methods) do pressed[k], apart[k] = common.curve(common.method(name)), common.curve(common.method(name)) end
 local deltas = {}
 for power = 0, -18, -1 do deltas[#deltas + 1] = -0.5 * 10.0^power end
 deltas[#deltas + 1] = 0
@@ -60,8 +60,8 @@ for place, delta in ipairs(deltas) do
   end
   if place % 3 == 1 or delta == 0 then print(line) end
 end
-dotyk.chart{ file = "images/stability_degenerate.png", size = { 1000, 1100 }, x = "|δ|", panels = {
-  { title = "pressed, δ < 0", y = "iterations", log = "xy", series = pressed }, { title = "apart, δ > 0", y = "iterations", log = "xy", series = apart } } }
+dotyk.chart{ file = "images/stability_degenerate.png", size = { 1000, 1100 }, x = "relative gap |δ|", panels = {
+  { title = "Pressed, δ < 0", y = "iterations", log = "xy", series = pressed }, { title = "Apart, δ > 0", y = "iterations", log = "xy", series = apart } } }
 print "images/stability_degenerate.png"
 common.verdict(wrong == 0 and unconverged == 0 and worst < 1e-8 and most <= 10, ("touching without force costs nobody convergence: active sets settle in %d iterations at most and forces are right to %.0e of p at "
   .. "every δ, active_set's to %.0e, and the interior point's to %.0e, where tol alone would leave √tol = 1e-5"):format(most, worst, sets, inner))

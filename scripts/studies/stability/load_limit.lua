@@ -25,7 +25,7 @@ local map <const> = common.map{ "both blocks are carried", "the low block alone"
 local heights <const>, worst, series = { 1, 2 }, 0, {}
 local found = common.curve("boundary found", { style = "points" })
 local function solvable(h, mu, t) return block(h, mu, t):balance().solvable end
-for _, h in ipairs(heights) do series[h] = common.curve(("h = %d: min(μ, 1/h)"):format(h), { reference = true }) end
+for _, h in ipairs(heights) do series[h] = common.curve(h == 1 and "height 1: min(μ, 1)" or "height 2: min(μ, ½)", { reference = true }) end
 for k = 1, 15 do
   local mu = 0.1 * k + 0.013
   for _, h in ipairs(heights) do
@@ -78,7 +78,7 @@ for _, sign in ipairs{ -1, 1 } do
   end
 end
 series[#series + 1] = found
-dotyk.chart{ file = "images/stability_load_limit.png", x = "coefficient of friction μ", y = "horizontal load over weight, t", map = map:cells(), series = series }
+dotyk.chart{ file = "images/stability_load_limit.png", x = "coefficient of friction μ", y = "horizontal load / weight", map = map:cells(), series = series }
 print "images/stability_load_limit.png"
 common.verdict(worst < 1e-8 and wrong == 0 and worst_force < 1e-8, ("the verdict turns at min(μ, 1/h) within %.0e; inside the limit, as near as 1e-13, the solver ends in %d iterations at most with the resultant "
   .. "right to %.0e; beyond it, from 1e-9 on, dotyk names the motion and the turn of the load that would help"):format(worst, most, worst_force))

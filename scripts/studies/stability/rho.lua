@@ -21,11 +21,11 @@ local function punch() return common.punch(n) end
 local m <const> = math.max(4, n // 4)
 local coulomb <const>, given <const> = dotyk.friction.coulomb(0.3), dotyk.friction.tresca(2.5)
 local cases <const> = {
-  { "pdas, punch", "pdas", dotyk.solver.active_set{}, punch },
-  { "pdas, punch in space", "pdas", dotyk.solver.active_set{}, function() return scenes.cube(m) end },
-  { "newton, given friction", "newton", dotyk.solver.projected_cg{}, function() return scenes.lifted(n, given) end },
-  { "newton, Coulomb", "newton", dotyk.solver.coulomb_loop{}, function() return scenes.lifted(n, coulomb) end },
-  { "newton, Coulomb, in space", "newton", dotyk.solver.psor{ omega = 1.2 }, function() return scenes.cube(m, coulomb) end },
+  { "PDAS", "pdas", dotyk.solver.active_set{}, punch },
+  { "PDAS, in space", "pdas", dotyk.solver.active_set{}, function() return scenes.cube(m) end },
+  { "Newton, given", "newton", dotyk.solver.projected_cg{}, function() return scenes.lifted(n, given) end },
+  { "Newton, Coulomb", "newton", dotyk.solver.coulomb_loop{}, function() return scenes.lifted(n, coulomb) end },
+  { "Newton, in space", "newton", dotyk.solver.psor{ omega = 1.2 }, function() return scenes.cube(m, coulomb) end },
 }
 
 -- By the method itself and its own test, not by one that it handed over to, nor by what judges any method's state.
@@ -64,13 +64,13 @@ for _, case in ipairs(cases) do
   series[#series + 1] = curve
   if #missed > 0 then series[#series + 1] = { x = missed, twin = true, crossed = true, style = "points" } end
 end
-dotyk.chart{ file = "images/stability_rho.png", log = "xy", x = "ρ over the stiffness that a row sees", y = "iterations", series = series }
+dotyk.chart{ file = "images/stability_rho.png", log = "xy", x = "ρ / stiffness of a contact row", y = "iterations", series = series }
 
 -- 2. Both ends, Coulomb friction in the plane.
 local scene <const>, contact <const> = scenes.lifted(n, coulomb)
 local exact <const> = dotyk.solver.newton{}:solve(scene)
 local ends <const> = { common.curve("least ρ", { style = "points" }), common.curve("greatest ρ", { style = "points" }) }
-local laws <const> = { common.curve("theory: ε/tol", { reference = true }), common.curve("theory: tol/ε", { reference = true }) }
+local laws <const> = { common.curve("ε/tol, ε = 2⁻⁵²", { reference = true }), common.curve("tol/ε", { reference = true }) }
 local factor = 1
 print "\n  tol   least ρ    ε/tol   greatest ρ    tol/ε"
 for power = -11, -6 do
@@ -90,7 +90,7 @@ for power = -11, -6 do
   print(("%.0e   %.1e  %.1e      %.1e  %.1e"):format(tol, least, epsilon / tol, greatest, tol / epsilon))
   factor = math.max(factor, least * tol / epsilon, epsilon / tol / least, greatest * epsilon / tol, tol / epsilon / greatest)
 end
-dotyk.chart{ file = "images/stability_rho_tol.png", log = "xy", x = "tol", y = "ρ over the stiffness that a row sees", series = { ends[1], ends[2], laws[1], laws[2] } }
+dotyk.chart{ file = "images/stability_rho_tol.png", log = "xy", x = "tolerance tol", y = "ρ / stiffness of a contact row", series = { ends[1], ends[2], laws[1], laws[2] } }
 print "images/stability_rho.png, images/stability_rho_tol.png"
 local slopes <const> = math.max(math.abs(fit.order(ends[1].x, ends[1].y) + 1), math.abs(fit.order(ends[2].x, ends[2].y) - 1))
 

@@ -52,7 +52,7 @@ for _, layers in ipairs{ 1, 2, 4 } do
   print(("%6d   %.5f"):format(layers, at))
 end
 for _, case in ipairs{ { "Q1, 1 layer", "Q1", 1 }, { "Q1, 4 layers", "Q1", 4 }, { "P1, 1 layer", "P1", 1 }, { "P1, 4 layers", "P1", 4 } } do
-  local curve = common.curve(case[1])
+  local curve = common.curve(case[1], { style = case[3] == 1 and "line" or "both" })
   for third = -6, 12 do
     local l = 10^(third / 3)
     local stiff, s = bending(case[2], case[3], l)
@@ -67,7 +67,7 @@ print "\nslanted by   too stiff by [%], l = H: Q1 of 1 layer    of 4 layers    P
 for _, angle in ipairs{ 0, 5, 10, 15, 20, 25 } do
   print(("%8d°   %37.2f    %11.2f    %14.2f"):format(angle, 100 * (bending("Q1", 1, 1, angle) - 1), 100 * (bending("Q1", 4, 1, angle) - 1), 100 * (bending("P1", 4, 1, angle) - 1)))
 end
-dotyk.chart{ file = "images/stability_stretched.png", log = "xy", x = "length of the cells over the height of the strip, l/H", y = "too stiff in bending by, relative", series = series }
+dotyk.chart{ file = "images/stability_stretched.png", log = "xy", x = "cell length / height of the strip, l/H", y = "relative excess stiffness", series = series }
 
 -- 2. Even layers, the last one halved again and again towards the contact.
 print "\nwidth / height   pdas   psor   uzawa   projected_cg        force    change [%]   residual"

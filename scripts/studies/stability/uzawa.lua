@@ -116,11 +116,10 @@ end
 local panels = {}
 for k, shape in ipairs{ "flat", "parabola" } do
   local series = maps[shape]:series()
-  if shape == "parabola" then series[#series + 1] = certain end
-  table.move({ found[shape], theory[shape] }, 1, 2, #series + 1, series)
-  panels[k] = { title = shape == "flat" and "A flat punch: all rows close" or "A parabola: some rows close", y = "cells along the contact", log = "y", series = series }
+  table.move({ found[shape], theory[shape], shape == "parabola" and certain or nil }, 1, 3, #series + 1, series)
+  panels[k] = { title = shape == "flat" and "Flat punch: all nodes close" or "Parabola: some nodes close", y = "contact cells", log = "y", series = series }
 end
-dotyk.chart{ file = "images/stability_uzawa.png", x = "step ρ over 2/λ_max of the closed rows", panels = panels, size = { 1000, 900 } }
+dotyk.chart{ file = "images/stability_uzawa.png", x = "step ρ relative to 2/λ_max of the closed nodes", panels = panels, size = { 1000, 900 } }
 print "images/stability_uzawa.png"
 common.verdict(worst < 0.05 and outside < 0.01 and wrong == 0 and above < 1e-6, ("Uzawa's method ceases to converge at ρ = 2/λ_max "
   .. "where all rows are closed (found within %.1f %%), else between that and 2/λ_max of the closed rows; dotyk measures ρ by a "

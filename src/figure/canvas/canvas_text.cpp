@@ -73,7 +73,7 @@ std::optional<std::array<std::size_t, 2>> find_index(const std::string& text, st
 
 }  // namespace
 
-std::vector<TextRun> text_runs(const std::string& text, double size, bool bold) {
+std::vector<TextRun> text_runs(const std::string& text, double size, bool bold, double least) {
   constexpr double kLower = 0.22;
   std::vector<TextRun> runs;
   double at = 0;
@@ -86,7 +86,7 @@ std::vector<TextRun> text_runs(const std::string& text, double size, bool bold) 
   while (const auto index = find_index(text, from)) {
     const auto [bar, end] = *index;
     add(text.substr(from, bar - from), size, 0);
-    add(text.substr(bar + 1, end - bar - 1), least_letters * size, -kLower * size);
+    add(text.substr(bar + 1, end - bar - 1), std::min(size, std::max(least_letters * size, least)), -kLower * size);
     from = end;
   }
   add(text.substr(from), size, 0);

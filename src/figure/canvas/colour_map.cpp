@@ -33,7 +33,24 @@ std::string label(const FieldLabel& field, int exponent) {
   return unit.empty() ? field.name : field.name + " [" + unit + "]";
 }
 
-Ticks bar_ticks(const ColourScale& scale) { return few_ticks(scale.low, scale.high, 5); }
+// As many of the ticks as have room on a bar of this height.
+std::vector<Tick> ticks_on(const ColourScale& scale, double height, double em) {
+  const auto apart = [&](const std::vector<double>& at) { return at.size() < 2 || (at[1] - at[0]) / (scale.high - scale.low) * height >= 1.1 * em; };
+  Ticks out = bar_ticks(scale);
+  for (int n = 4; n >= 2 && !apart(out.labelled()); --n) out = linear_ticks(scale.low, scale.high, n);
+  return out.ticks;
+}
+
+// The width of the longest word.
+double longest_word(const std::string& name, double size) {
+  double most = 0;
+  for (std::size_t from = 0; from < name.size();) {
+    const std::size_t end = std::min(name.find(' ', from), name.size());
+    most = std::max(most, text_extent(name.substr(from, end - from), size).x);
+    from = end + 1;
+  }
+  return most;
+}
 
 constexpr double bar = 1.0, tick = 0.25, pad = 0.35, small_label = 0.85, ends = 0.55, tip = 0.9;  // in em
 
@@ -79,6 +96,8 @@ std::string extreme(const char* name, double value, const Ticks& ticks) { return
 
 }  // namespace
 
+Ticks bar_ticks(const ColourScale& scale) { return few_ticks(scale.low, scale.high, 5); }
+
 double ColourScale::from() const { return diverging ? -to() : low; }
 double ColourScale::to() const { return diverging ? std::max(std::abs(low), std::abs(high)) : high; }
 
@@ -102,6 +121,7 @@ ColourScale colour_scale(const ScenePicture& p, const std::optional<Box>& window
   if (!scale.shown) return scale;
   constexpr double kRounding = 1e-12;
   if (std::abs(part.least) < kRounding * part.greatest) part.least = 0;
+  if (std::abs(part.greatest) < -kRounding * part.least) part.greatest = 0;
   scale.least = scale.low = part.least, scale.greatest = scale.high = part.greatest;
   if (p.field_range) scale.low = (*p.field_range)[0], scale.high = (*p.field_range)[1];
   else leave_out_peaks(scale, values_of(p, window));
@@ -136,7 +156,7 @@ double colour_bar_width(const ColourScale& scale, const FieldLabel& field, doubl
   const Ticks ticks = bar_ticks(scale);
   const double beside = (bar + tick + pad) * em + widest_label(ticks, em) + 0.4 * em + 1.3 * em;
   const auto above = [&](const char* name, double value) { return text_extent(extreme(name, value, ticks), small_label * em).x; };
-  return std::max({beside, above("max", scale.greatest), above("min", scale.least)});
+  return std::max({beside, above("max", scale.greatest), above("min", scale.least), longest_word(label(field, ticks.exponent), least_letters * em)});
 }
 
 void draw_colour_bar(Canvas& canvas, const ColourScale& scale, const FieldLabel& field, double em, const Box& room) {
@@ -166,11 +186,9 @@ void draw_colour_bar(Canvas& canvas, const ColourScale& scale, const FieldLabel&
     canvas.convex(corners, scale.at(value));
     canvas.polyline(corners, std::max(1.0, em / 22), {60, 60, 60}, {}, true);
   }
-  double below = -1e300;
-  for (const Tick& t : few_ticks(scale.low, scale.high, std::min(5.0, box.height() / (1.3 * em))).ticks) {
+  for (const Tick& t : ticks_on(scale, box.height(), em)) {
     const double y = box.bottom + box.height() * (t.value - scale.low) / (scale.high - scale.low);
-    if (t.label.empty() || y - below < 1.1 * em) continue;
-    below = y;
+    if (t.label.empty()) continue;
     canvas.line({box.right, y}, {box.right + tick * em, y}, std::max(1.0, em / 20), {60, 60, 60});
     canvas.text({box.right + (tick + pad) * em, y}, t.label, {.size = em, .up = Align::middle});
   }

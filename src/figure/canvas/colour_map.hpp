@@ -4,7 +4,7 @@
 #include <vtkLookupTable.h>
 #include <vtkSmartPointer.h>
 
-#include "figure/canvas/canvas.hpp"
+#include "figure/canvas/axes.hpp"
 #include "figure/canvas/window.hpp"
 
 namespace dotyk::figure {
@@ -25,6 +25,9 @@ struct ColourScale {
 ColourScale colour_scale(const ScenePicture& picture, const std::optional<Box>& window);
 
 vtkSmartPointer<vtkLookupTable> lookup_table(const ColourScale& scale);
+
+// The ticks of a bar where it is not too short for them.
+Ticks bar_ticks(const ColourScale& scale);
 
 // What a bar of colours is of; without a name there is none.
 struct FieldLabel {

@@ -20,8 +20,8 @@ struct TextRun {
   double size = 0, width = 0;
   Point start;
 };
-// The line in pieces: what follows a symbol of one letter and "_" stands lower, as in λ_max.
-std::vector<TextRun> text_runs(const std::string& text, double size, bool bold);
+// The line in pieces: what follows a symbol of one letter and "_" stands lower and is smaller, as in λ_max, but not smaller than `least` if the line is not.
+std::vector<TextRun> text_runs(const std::string& text, double size, bool bold, double least = 0);
 // Where the base line of a text begins.
 Point baseline(const PlacedText& text);
 inline double halo_width(double size) { return std::max(1.0, size / 9); }

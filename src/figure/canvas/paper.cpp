@@ -31,8 +31,8 @@ void require(cairo_status_t status, const Sheet& sheet) {
 // In the pixels of the sheet, y downwards from here on.
 class Painter {
 public:
-  // crisp: horizontal and vertical lines are moved so that they cover whole pixels.
-  Painter(cairo_t* cr, double height, bool crisp) : cr_(cr), height_(height), crisp_(crisp) {}
+  // Of pixels horizontal and vertical lines are moved so that they cover whole ones.
+  Painter(cairo_t* cr, const Sheet& sheet) : cr_(cr), height_(sheet.height), least_(least_letters * letters(sheet)), crisp_(!vector_graphics(sheet)) {}
 
   void paint(const Canvas& canvas) {
     for (const Mark& mark : canvas.marks()) paint(mark);
@@ -71,7 +71,7 @@ private:
     const Point start = baseline(text);
     cairo_translate(cr_, start.x, height_ - start.y);
     if (style.upright) cairo_rotate(cr_, -std::numbers::pi / 2);
-    const std::vector<TextRun> runs = text_runs(text.text, style.size, style.bold);
+    const std::vector<TextRun> runs = text_runs(text.text, style.size, style.bold, least_);
     const auto each = [&](auto put) {
       for (const TextRun& run : runs) {
         set_font(cr_, run.size, style.bold);
@@ -93,7 +93,7 @@ private:
   }
 
   cairo_t* cr_;
-  double height_;
+  double height_, least_;  // of letters
   bool crisp_;
 };
 
@@ -132,7 +132,7 @@ Image reduced(const Image& fine, int width) {
 
 void paint(cairo_t* cr, const Sheet& sheet, const std::vector<Painted>& parts) {
   const bool pixels = !vector_graphics(sheet);
-  Painter painter(cr, sheet.height, pixels);
+  Painter painter(cr, sheet);
   for (const Painted& part : parts) {
     painter.paint(part.under);
     if (!part.image.rgba.empty()) {

@@ -30,7 +30,7 @@ std::string base64(const std::string& bytes) {
 
 class Svg {
 public:
-  explicit Svg(const Sheet& sheet) : height_(sheet.height) {
+  explicit Svg(const Sheet& sheet) : height_(sheet.height), least_(least_letters * letters(sheet)) {
     const double points = points_per_pixel(sheet);
     out_.precision(7);
     out_ << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" << points * sheet.width << "pt\" height=\""
@@ -88,13 +88,13 @@ private:
     if (style.bold) out_ << " font-weight=\"bold\"";
     if (style.halo) out_ << " stroke=\"#ffffff\" stroke-width=\"" << number(2 * halo_width(style.size)) << "\" stroke-linejoin=\"round\" paint-order=\"stroke\"";
     out_ << '>';
-    for (const TextRun& run : text_runs(text.text, style.size, style.bold))
+    for (const TextRun& run : text_runs(text.text, style.size, style.bold, least_))
       out_ << "<tspan x=\"" << number(run.start.x) << "\" y=\"" << number(0 - run.start.y) << "\" font-size=\"" << number(run.size) << "\">" << escaped(run.text) << "</tspan>";
     out_ << "</text>\n";
   }
 
   std::ostringstream out_;
-  double height_;
+  double height_, least_;  // of letters
 };
 
 }  // namespace

@@ -40,6 +40,12 @@ const SceneValue& field_of(FieldChoice choice) {
   return fields[static_cast<int>(choice)];
 }
 
+// As scripts call it.
+const char* key_of(FieldChoice choice) {
+  static const char* keys[] = {"none", "displacement", "ux", "uy", "uz", "von_mises", "xx", "yy", "zz", "yz", "xz", "xy", "error", "pressure", "gap", "slip", "status"};
+  return keys[static_cast<int>(choice)];
+}
+
 bool is_stress(FieldChoice field) { return field >= FieldChoice::von_mises && field <= FieldChoice::xy; }
 bool of_contacts(FieldChoice field) { return field >= FieldChoice::pressure; }
 
@@ -62,7 +68,7 @@ MapField map_field(FieldChoice field) {
     case FieldChoice::gap: return MapField::gap;
     case FieldChoice::slip: return MapField::slip;
     case FieldChoice::status: return MapField::status;
-    default: throw InputError("a map shows a field of the contact: \"pressure\", \"gap\", \"slip\" or \"status\"");
+    default: throw InputError(std::string("a map shows a field of the contact: \"pressure\", \"gap\", \"slip\" or \"status\", not the field \"") + key_of(field) + "\"");
   }
 }
 
@@ -202,7 +208,7 @@ void refuse_missing(FieldChoice field, int dimension) {
   if (dimension != 2) return;
   if (field == FieldChoice::uz || field == FieldChoice::yz || field == FieldChoice::xz)
     throw InputError(std::string("field ") + field_of(field).label + " does not exist: the scene is 2-D");
-  if (of_contacts(field)) throw InputError("fields of contacts are for scenes in space; this one is 2-D, where status and pressure are drawn at the contact line");
+  if (of_contacts(field)) throw InputError(std::string("field \"") + key_of(field) + "\" is one of contacts, which are for scenes in space; this one is 2-D, where status and pressure are drawn at the contact line");
 }
 
 /// How far each body moves from the middle of all.

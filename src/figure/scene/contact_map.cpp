@@ -144,7 +144,10 @@ std::optional<Flat> unrolled(const ContactPicture& contact, const Vec3& lines) {
     const std::optional<Circle> circle = circle_through(profile);
     if (!circle) return std::nullopt;
     const double side = dot(unit(contact.nodes.front().normal), plus(plus({0, 0, 0}, t, profile[0].x - circle->centre.x), middle, profile[0].y - circle->centre.y)) < 0 ? -1 : 1;
-    for (const Point& p : profile) arc.push_back(circle->radius * std::atan2(p.x - circle->centre.x, side * (p.y - circle->centre.y)));
+    for (const Point& p : profile) {
+      const double angle = std::atan2(p.x - circle->centre.x, side * (p.y - circle->centre.y));
+      arc.push_back(circle->radius * (angle > (1 - 1e-9) * std::numbers::pi ? -std::numbers::pi : angle));  // at the cut, where rounding decides
+    }
     flat.period = 2 * std::numbers::pi * circle->radius;
   }
   std::vector<double> along;

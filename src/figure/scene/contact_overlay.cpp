@@ -206,9 +206,8 @@ std::vector<Label> labels(const Stage& stage) {
   if (stage.pressures() && stage.plane && !stage.map())
     for (const ContactPicture& contact : stage.picture.contacts)
       if (const std::optional<Label> label = peak_label(stage, contact)) out.push_back(*label);
-  const Box sheet = Box{0, 0, 1.0 * stage.picture.width, 1.0 * stage.picture.height}.grown(-0.3 * stage.em);
   if (stage.crowded)
-    for (Label& label : out) label.box = pushed(label.box, sheet);
+    for (Label& label : out) label.box = pushed(label.box, stage.frame);
   return out;
 }
 
@@ -260,7 +259,8 @@ void draw_shear(Stage& stage, const ContactPicture& contact, const std::vector<P
   std::vector<std::size_t> rubbing;
   std::vector<Point> places;
   for (std::size_t i = 0; i < at.size(); ++i)
-    if (length(contact.nodes[i].shear) >= least_share * stage.greatest_shear) rubbing.push_back(i), places.push_back(at[i]);
+    if (length(contact.nodes[i].shear) >= least_share * stage.greatest_shear && std::ranges::all_of(arrow(i), [&](Point end) { return stage.shows(end); }))
+      rubbing.push_back(i), places.push_back(at[i]);
   std::vector<std::size_t> chosen = choice(places);
   // The greatest is among them, in place of that next to it.
   const auto shear = [&](std::size_t k) { return length(contact.nodes[rubbing[k]].shear); };

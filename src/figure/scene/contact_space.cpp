@@ -103,7 +103,7 @@ void add_contact_surface(const Stage& stage, const ContactPicture& contact, vtkR
 
 namespace {
 
-constexpr double inset_share = 0.36, inset_em = 14;  // of the picture's width, and letters
+constexpr double inset_share = 0.36, inset_em = 14, inset_height = 0.62;  // of the picture's width, letters, of its height
 
 // The contact that carries most, of those that have facets; of equals (but for rounding) the first.
 const ContactPicture* inset_contact(const ScenePicture& picture) {
@@ -125,15 +125,18 @@ std::optional<ScenePicture> inset_of(const ScenePicture& picture) {
   if (!contact) return std::nullopt;
   ScenePicture map = contact_map(*contact, MapField::status);
   const double em = letters(picture);
-  Bounds bounds;
-  for (const ContactNode& node : map.contacts.front().nodes) bounds.add(Point{node.position[0], node.position[1]});
   map.file = picture.file, map.title = "contact " + contact->name;
   map.width = static_cast<int>(std::min(inset_em * em, inset_share * picture.width));
-  const double plot = map.width - 4.5 * em, around = 6 * em;  // beside it axes and their numbers, above and below it these and the title
-  map.height = static_cast<int>(std::min(plot * std::min(1.6, bounds.height() / std::max(bounds.width(), 1e-300)) + around, 0.62 * picture.height));
   map.printed = printed_width(picture) * map.width / picture.width;
   map.length_unit = picture.length_unit;
   map.pressure = picture.pressure, map.shear = picture.shear;
+  map.height = static_cast<int>(inset_height * picture.height);
+  // As high as it needs: what it leaves free, or lacks, is known once it is laid out.
+  for (int round = 0; round < 2; ++round) {
+    Stage tried(map);
+    tried.own_legend = false;
+    map.height = std::clamp(map.height + static_cast<int>(std::ceil(lay_out(tried))), least_side, static_cast<int>(inset_height * picture.height));
+  }
   return map;
 }
 

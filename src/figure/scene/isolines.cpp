@@ -101,7 +101,7 @@ void draw_isolines(Stage& stage, const std::function<bool(const Box&)>& free) {
     const Triangles triangles = triangles_of(stage, body);
     Bounds bounds;
     for (const Point& p : triangles.at) bounds.add(p);
-    const std::vector<Tick> ticks = linear_ticks(stage.scale.low, stage.scale.high, 6).ticks;
+    const std::vector<Tick> ticks = bar_ticks(stage.scale).ticks;
     // So many from the rim to the middle leave no colour between them.
     const bool fuse = 0.5 * std::min(bounds.width(), bounds.height()) < 0.3 * stage.em * static_cast<double>(ticks.size());
     for (const Tick& tick : ticks) {

@@ -112,12 +112,12 @@ void draw_contact_map(Stage& stage, const ContactPicture& contact) {
   if (!field) fill_statuses(stage, contact, at);
   for (const auto& [a, b] : pairs(rim({contact.facets, contact.nodes_per_facet}))) stage.over.line(at[a], at[b], std::max(1.2, stage.em / 18), axes_ink);
   field ? draw_borders(stage, contact, at) : draw_pressure(stage, contact, at);
-  // From the nodes, where there are markers.
-  draw_shear(stage, contact, at, [&](const std::vector<Point>& places) { return spread(places, places, map_spacing * stage.em); }, [&](std::size_t i) {
-    const Vec3& shear = contact.nodes[i].shear;
-    return std::array{at[i], at[i] + longest_arrow * stage.em / stage.greatest_shear * Point{shear[0], shear[1]}};
-  });
   if (field) draw_markers(stage, contact, at);
+  // From the nodes, or from the rims of markers there.
+  draw_shear(stage, contact, at, [&](const std::vector<Point>& places) { return spread(places, places, map_spacing * stage.em); }, [&](std::size_t i) {
+    const Point shear{contact.nodes[i].shear[0], contact.nodes[i].shear[1]}, tail = at[i] + (field ? 0.5 * map_marker * stage.em / std::max(length(shear), 1e-300) : 0) * shear;
+    return std::array{tail, tail + longest_arrow * stage.em / stage.greatest_shear * shear};
+  });
 }
 
 LegendEntry map_status_entry(const Stage& stage, Status status) {

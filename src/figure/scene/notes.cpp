@@ -19,14 +19,13 @@ void draw_notes(Stage& stage, vtkRenderer*) {
     if (!stage.shows(at)) continue;
     stage.over.disc(at, 0.2 * em, {255, 255, 255});
     stage.over.disc(at, 0.14 * em, axes_ink);
-    // Of the places around the point the first that is on the sheet and clear of other notes; farther off where none near it is.
-    const Box sheet = Box{0, 0, 1.0 * stage.picture.width, 1.0 * stage.picture.height}.grown(-0.3 * em);
+    // Of the places around the point the first that is in the room and clear of other notes; farther off where none near it is.
     std::optional<Box> place;
     for (const double far : {0.9, 2.0, 3.2})
       for (const Point d : {Point{0.8, 0.6}, Point{-0.8, 0.6}, Point{0.8, -0.6}, Point{-0.8, -0.6}, Point{0, 1}, Point{0, -1}}) {
         const Point end = at + far * em * d;
         const Box box = Box::about({end.x + (d.x > 0 ? 0.5 : d.x < 0 ? -0.5 : 0) * extent.x, end.y + (d.y > 0 ? 0.5 : -0.5) * extent.y}, extent).grown(0.1 * em);
-        if (place || !sheet.holds({box.left, box.bottom}) || !sheet.holds({box.right, box.top}) || std::ranges::any_of(taken, [&](const Box& other) { return box.overlaps(other); })) continue;
+        if (place || !stage.room.holds({box.left, box.bottom}) || !stage.room.holds({box.right, box.top}) || std::ranges::any_of(taken, [&](const Box& other) { return box.overlaps(other); })) continue;
         place = box;
         stage.over.line(at, end, std::max(1.0, em / 20), axes_ink);
       }

@@ -98,7 +98,7 @@ void fit(Stage& stage, const Bounds& scaled, const Box& room) {
     stage.view.scale = std::max(0.2 * s, s - std::max(width > 0 ? over_x / width : -1e300, height > 0 ? over_y / height : -1e300));
     if (std::abs(stage.view.scale - s) < 1e-6 * s) break;
   }
-  constexpr double kCrowded = 0.4;
+  constexpr double kCrowded = 0.3;
   if (stage.view.scale < kCrowded * most && !std::exchange(stage.crowded, true)) return fit(stage, scaled, room);
   const Bounds now = pixel_bounds(stage, scaled);
   stage.view.origin = room.centre() - now.centre();
@@ -254,6 +254,7 @@ Surroundings place_scene(Stage& stage, bool beside) {
   const Bounds scaled = scaled_bounds(stage);
   Surroundings around{0, 0, p.caption.empty() ? 0 : 1.5 * em + caption_of(p, em).depth(), Legend({}, em), beside, {}};
   stage.frame = {0, 0, 1.0 * p.width, 1.0 * p.height};
+  stage.crowded = false;
   for (int round = 0; round < 3; ++round) {
     stage.deformation_shows = round > 0 && displacement_shows(stage);
     stage.entries.clear();
@@ -310,8 +311,9 @@ void draw_column(Stage& stage, const Surroundings& around) {
   }
   if (!(around.bar > 0)) return;
   const bool alone = !stage.inset && !around.beside;
-  const double height = alone ? std::clamp(stage.frame.height(), std::min(12 * em, room.height()), room.height()) : std::min(room.top - bottom, 22 * em);
-  const double middle = alone ? stage.frame.centre().y : room.top - height / 2;
+  const double low = 0.4 * em + around.caption + around.legend.height(), free = room.top - low;  // beside the axis, too
+  const double height = alone ? std::clamp(stage.frame.height(), std::min(13 * em, free), free) : std::min(room.top - bottom, 22 * em);
+  const double middle = alone ? std::clamp(stage.frame.centre().y, low + height / 2, room.top - height / 2) : room.top - height / 2;
   draw_colour_bar(stage.over, stage.scale, field_of(p), em, {alone ? right - around.bar : left + (stage.inset ? 2 * em : 0.5 * em), middle - height / 2, p.width - 0.3 * em, middle + height / 2});
 }
 
@@ -322,6 +324,7 @@ double lay_out(Stage& stage) {
   const double em = stage.em, w = p.width;
   if (!stage.plane) aim(stage);
   const Surroundings around = place_scene(stage);
+  stage.room = around.room;
   stage.over.text({w / 2, p.height - 0.6 * em}, title_of(p, em), title_style());
   const FittedText caption = caption_of(p, em);
   stage.over.text({w / 2, 0.5 * em + caption.depth()}, caption, {.across = Align::middle});

@@ -41,6 +41,7 @@ struct Stage {
   ColourScale scale;
   View view;
   Box frame;                  // pixels within which the scene is drawn
+  Box room;                   // what title, legend, bar and the numbers of axes leave
   std::vector<std::array<Vec3, 2>> body_boxes;  // least and greatest reference corner of each body
   std::optional<Box> asked, window;  // what the figure shows, across and up, where that is not all: as the picture says; and drawn, which is at least that
   double window_strip = 0;    // pixels of the greatest pressure in a window

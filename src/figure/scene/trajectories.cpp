@@ -95,7 +95,7 @@ private:
     for (int i = x - 1; i <= x + 1; ++i)
       for (int j = y - 1; j <= y + 1; ++j)
         if (const auto found = taken_.find({i, j}); found != taken_.end())
-          if (std::ranges::any_of(found->second, [&](Point q) { return length(p - q) < distance; })) return true;
+          if (std::ranges::any_of(found->second, [&](Point q) { return length(p - q) < (1 - 1e-9) * distance; })) return true;
     return false;
   }
 

@@ -70,6 +70,8 @@ ScenePicture picture_of(Call& call, bool alone) {
   const auto s = call.self<Solution>();
   const SceneOptions options = scene_options(call, s->scene().dimension());
   const bool map = call.has("map");
+  for (const char* key : {"trajectories", "explode", "cut", "deform", "supports", "loads", "obstacle", "inset"})
+    if (map && call.has(key)) throw InputError(text("'", key, "' beside 'map', which shows a contact at rest and nothing else"));
   const FieldChoice field = map && !call.has("field") ? FieldChoice::pressure : options.field;
   ScenePicture picture = map ? figure::compose_map(*s, *call.object<scene::Contact>("map"), field) : figure::compose(*s, options);
   figure::SceneUnits units;
@@ -94,6 +96,7 @@ std::string draw_zoomed(Call& call, ScenePicture whole) {
   if (!plane(whole)) throw InputError("'zoom' is for the plane and for maps; this picture is in space");
   if (call.has("window")) throw InputError("'zoom' and 'window' are given; the scene beside a zoom is shown whole");
   const std::vector<double> ends = call.vector("zoom");
+  if (!(ends[0] < ends[2] && ends[1] < ends[3])) throw InputError(text("zoom {", ends[0], ", ", ends[1], ", ", ends[2], ", ", ends[3], "} is empty; it must be {x0, y0, x1, y1} with x0 < x1 and y0 < y1"));
   ScenePicture part = whole;
   std::copy(ends.begin(), ends.end(), part.window.emplace().begin());
   whole.marked.push_back(*part.window);
