@@ -60,7 +60,7 @@ end
 
 -- 2. Refinement.
 local series <const> = {} -- the most of all loads and both elements
-for k, name in ipairs{ "dotyk.solve", "proximal", "newton", "projected_cg" } do series[k] = { name = name, x = {}, y = {} } end
+for k, name in ipairs{ "default", "proximal", "Newton", "projected CG" } do series[k] = { name = name, x = {}, y = {} } end
 print "\niterations under refinement; of dotyk.solve: on all rows + on parts of them\nelement  load  cells   dotyk.solve   newton  proximal  projected_cg   slips on   middle"
 for _, element in ipairs(elements) do
   for _, p in ipairs(loads) do
@@ -110,7 +110,7 @@ for power = 1, 5 do
 end
 assert(before < 2 / coarse^2) -- what the mesh leaves
 
-dotyk.chart{ file = "images/plate_friction_iterations.png", title = "Edge friction: the most of six cases", x = "cells along a side", y = "iterations", y_range = { 1, 1000 },
+dotyk.chart{ file = "images/plate_friction_iterations.png", title = "Edge friction, most of six cases", x = "cells along a side", y = "iterations", y_range = { 1, 1000 },
   log = "xy", series = series }
 dotyk.solve(plate(coarse, "morley", 3)):render{ file = "images/plate_friction.png", view = "plan", title = "Edge friction: loaded by 3 of 4" }
 print "images/plate_friction.png, images/plate_friction_iterations.png"

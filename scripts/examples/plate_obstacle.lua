@@ -88,7 +88,7 @@ for _, element in ipairs{ "morley", "hct" } do
   assert(s.converged and math.abs(s.contact.force - 4) < 1e-8)
 end
 local shown <const> = circle(finest, "morley")
-shown:render{ file = "images/plate_obstacle.png", title = "A clamped circular plate pressed onto a flat floor" }
+shown:render{ file = "images/plate_obstacle.png", title = "A clamped plate pressed onto a floor" }
 circle(finest, "hct"):render{ file = "images/plate_obstacle_plan.png", view = "plan", field = "von_mises", title = "Where it bears on the floor" }
 draped(finest, "morley"):render{ file = "images/plate_obstacle_bump.png", title = "A free plate on a bump" }
 print "images/plate_obstacle.png, images/plate_obstacle_plan.png, images/plate_obstacle_bump.png"

@@ -296,15 +296,15 @@ local function over_mean(r)
 end
 local alone <const> = optimise("free", cells, { splines = true })
 local peak <const> = math.max(table.unpack((select(2, pressures(free.straight)))))
-dotyk.chart{ file = "images/roller.png", size = { 1000, 1250 }, panels = {
-  { x = "x [mm]", y = "contact pressure [MPa]", y_break = { 2500, 500 * (0.94 * peak // 500) }, series = {
+dotyk.chart{ file = "images/roller.png", columns = 3, size = { 2100, 800 }, panels = {
+  { title = "Pressure", x = "x [mm]", y = "contact pressure [MPa]", y_break = { 2500, 500 * (0.94 * peak // 500) }, series = {
     series("straight", "line", pressures(free.straight)), series("optimised", "line", pressures(free.best)),
     series("Lundberg's, fitted", "line", pressures(free.rounded)) } },
-  { x = "x/a", y = "pressure / mean", x_range = { 0.9, 1.002 }, y_range = { 0.79, 1.21 }, series = {
+  { title = "Near the end", x = "x / half length", y = "pressure / mean", x_range = { 0.9, 1.002 }, y_range = { 0.79, 1.21 }, series = {
     series(nil, "line", over_mean(free.straight)), series("optimised", "line", over_mean(free.best)),
-    series("Lundberg's, fitted", "line", over_mean(free.rounded)), series("optimised, splines alone", "line", over_mean(alone)) } },
-  { x = "x [mm]", y = "drop of the profile [µm]", series = {
-    series("optimised, embedded", "points", markers(embedded.best.profile)), series("optimised, free sides", "points", markers(free.best.profile)),
-    series("Lundberg's, fitted to the latter", "line", sampled(free.lundberg, 0.96 * a)),
+    series("Lundberg's, fitted", "line", over_mean(free.rounded)), series("splines alone", "line", over_mean(alone)) } },
+  { title = "Profile", x = "x [mm]", y = "drop of the profile [µm]", series = {
+    series("embedded", "points", markers(embedded.best.profile)), series("free sides", "points", markers(free.best.profile)),
+    series("Lundberg's, fitted", "line", sampled(free.lundberg, 0.96 * a)),
     series("closed forms", nil, sampled(embedded.z, a)), series(nil, nil, sampled(free.z, a)) } } } }
 print "images/roller.png, images/roller_scene.png"

@@ -63,7 +63,7 @@ print(("the stop bears %.0f N under the weight alone, %.0f N at most, and none w
   :format(history.force[1], math.max(table.unpack(history.force)), most))
 
 dotyk.chart{ file = "images/thermoelastic.png", title = "A strip on its stop: hot, then cold air", x = "time [min]", panels = {
-  { y = "warmth over 20 °C [K]", series = { { name = "air above", x = history.t, y = history.air }, { name = "strip near its tip", x = history.t, y = history.mean } } },
+  { y = "temperature above 20 °C [K]", series = { { name = "air above", x = history.t, y = history.air }, { name = "strip near its tip", x = history.t, y = history.mean } } },
   { y = "force of the stop [N]", series = { { x = history.t, y = history.force, style = "line" } } },
   { y = "tip above the stop [µm]", series = { { x = history.t, y = history.tip, style = "line" } } } } }
 dotyk.chart{ file = "images/thermoelastic_lines.png", title = "Deflection of the strip", x = "x [m]", y = "deflection [mm]", series = lines }
@@ -84,8 +84,8 @@ for order = 1, 2 do
     for i = 1, #values do error = math.max(error, math.abs(values[i] / exact[i] - 1)) end
     x[#x + 1], y[#y + 1], defects[#defects + 1] = 1200 / n, error, math.abs(energy.defect) / energy.dissipated
   end
-  orders[order] = { name = ({ "deflection, implicit Euler", "deflection, TR-BDF2" })[order], x = x, y = y }
-  balance[order] = { name = ({ "energy, implicit Euler", "energy, TR-BDF2" })[order], x = x, y = defects }
+  orders[order] = { name = ({ "deflection, Euler", "deflection, TR-BDF2" })[order], x = x, y = y }
+  balance[order] = { name = ({ "energy, Euler", "energy, TR-BDF2" })[order], x = x, y = defects }
   local last = #y
   print(("order %d: errors %.1e … %.1e, falling by %.2f when steps halve; balance of energy off by %.1e … %.1e of what is dissipated")
     :format(order, y[1], y[last], (y[1] / y[last]) ^ (1 / (last - 1)), defects[1], defects[last]))

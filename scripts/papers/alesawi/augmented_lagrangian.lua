@@ -111,7 +111,7 @@ local function draw(file, key, label)
       values[j] = {}
       for i = 1, #penalties do values[j][i] = results[update][M][i][key] end
     end
-    panels[k] = { title = update == "multiplier" and "First-order update" or "Least-squares update", y = "M", log = "xy",
+    panels[k] = { title = update == "multiplier" and "First-order update" or "Least-squares update", y = "precision M", log = "xy",
                   map = { x = penalties, y = precisions, values = values, label = label } }
   end
   dotyk.chart{ file = file, x = "first penalty ρ₀", panels = panels, size = { 1000, 1000 } }

@@ -80,24 +80,26 @@ if agreed then -- for which loads?
     raised(program(least), "multiplier", 100), raised(program(most), "multiplier", 100)))
 end
 
--- 3. The ten graphs: solid the first-order update, dashed the least-squares one.
-local panels, same, large, most_outer = {}, 0, 0, 0
+-- 3. The ten graphs, a cell for each run.
+local panels, penalties, same, large, most_outer = {}, {}, 0, 0, 0
+for k, label in ipairs{ "CG iterations", "outer iterations" } do
+  for i, update in ipairs{ "First-order update", "Least-squares update" } do
+    panels[2 * k - 2 + i] = { title = update, x = "first penalty ρ₀", y = "precision M", log = "xy", map = { x = penalties, y = precisions, values = {}, label = label } }
+  end
+end
 for k, M in ipairs(precisions) do
-  local function pair() return { { name = "first order", x = {}, y = {} }, { name = "least squares", x = {}, y = {}, reference = true } } end
-  local cg, outer = pair(), pair()
+  for _, panel in ipairs(panels) do panel.map.values[k] = {} end
   for power = 0, 10 do
     local r = { run(paper, "multiplier", M, power), run(paper, "least_squares", M, power) }
     for i = 1, 2 do
-      cg[i].x[power + 1], cg[i].y[power + 1] = 10.0^power, r[i].cg
-      outer[i].x[power + 1], outer[i].y[power + 1] = 10.0^power, r[i].iterations
+      penalties[power + 1] = 10.0^power
+      panels[i].map.values[k][power + 1], panels[2 + i].map.values[k][power + 1] = r[i].cg, r[i].iterations
       if power >= 6 then most_outer = math.max(most_outer, r[i].iterations) end
     end
     if r[1].cg == r[2].cg and r[1].iterations == r[2].iterations then same, large = same + 1, large + (power >= 6 and 1 or 0) end
   end
-  local function panel(label, top, series) return { title = ("M = %g"):format(M), y = label, x = "first penalty ρ₀", log = "x", series = series, y_range = { 0, top } } end
-  panels[k], panels[5 + k] = panel("CG iterations", 600, cg), panel("outer iterations", 14, outer)
 end
-dotyk.chart{ file = "images/papers_raised_penalties.png", panels = panels, columns = 5, size = { 2000, 850 } }
+dotyk.chart{ file = "images/papers_raised_penalties.png", panels = panels, columns = 2, size = { 2100, 1200 } }
 print "images/papers_raised_penalties.png"
 print(("The updates take the same number of outer and CG steps in %d of 55 runs, in %d of 25 with ρ₀ ≥ 1e6, which take at most %d outer steps."):format(same, large, most_outer))
 assert(large == 25 and most_outer <= 2, "large penalties tell the updates apart")

@@ -211,7 +211,7 @@ end
 local spectra, outside = {}, 0
 for k = 1, 3 do
   local found <const> = common.curve("eigenvalues", { style = "points" })
-  local names <const> = { k == 3 and "a_P, b_P" or "a, b", nil, ({ "a + ργ, b + ρδ", "a + ρ, b + ρ", "ρ" })[k] }
+  local names <const> = { k == 3 and "a_P" or "a", k == 3 and "b_P" or "b", ({ "a + ργ", "a + ρ", "ρ" })[k], ({ "b + ρδ", "b + ρ" })[k] }
   local ends <const> = {}
   for i = 1, k == 3 and 3 or 4 do ends[i] = common.curve(names[i], { style = "line", twin = i % 2 == 0 }) end
   for tenths = -40, 50 do
@@ -224,10 +224,10 @@ for k = 1, 3 do
       outside = math.max(outside, off / math.max(c.b, rho))
     end
   end
-  spectra[k] = { title = ("σ(H%s)"):format(({ "₁", "₂", "₃" })[k]), x = "penalty ρ", y = "eigenvalue", log = "xy",
+  spectra[k] = { title = ("Spectrum of H%s"):format(({ "₁", "₂", "₃" })[k]), x = "penalty ρ", y = "eigenvalue", log = "xy",
     y_range = { k == 3 and 3e-5 or 0.3, k == 3 and 3e6 or 3e5 }, series = { found, table.unpack(ends) } }
 end
-dotyk.chart{ file = "images/papers_penalised_spectra.png", columns = 3, size = { 1800, 750 }, panels = spectra }
+dotyk.chart{ file = "images/papers_penalised_spectra.png", columns = 3, size = { 2100, 900 }, panels = spectra }
 print(("\nσ(H₁), σ(H₂), σ(H₃) for ten ρ: outside their intervals by %.0e of the greatest at most; [γ, δ] = [%.4f, %.4f]"):format(outside, c.gamma, c.delta))
 
 -- 5. Steps of CG: the most of ten starts, five random gradients z and five with g = Lz, H = LLᵀ, random in energy.
@@ -255,7 +255,7 @@ local function most_steps(H, clean)
   return most
 end
 local function curves(...) -- counted twice, and bounds
-  local list = { common.curve "counted", common.curve("gradients kept orthogonal", { twin = true }) }
+  local list = { common.curve "counted", common.curve "kept orthogonal" }
   for i, name in ipairs{ ... } do list[2 + i] = common.curve(name, { style = "line", reference = name == "(3.6)" }) end
   return list
 end
@@ -288,9 +288,9 @@ for power = -6, 6 do
 end
 print(("from λ = 0, gradient −Pd: %d steps for all ρ from 1e-6 to 1e6 with P applied to each gradient, up to %d without"):format(most, rounded))
 local function panel(k, title, y, top) return { title = title, x = "penalty ρ", y = y, log = "x", y_range = { 0, top }, series = drawn[k] } end
-dotyk.chart{ file = "images/papers_penalised_spectra_steps.png", columns = 2, size = { 1600, 1200 }, panels = {
-  panel(1, "H₁ = F + ρG̃ᵀG̃", "CG steps, error in energy", 120), panel(2, "H₂ = F + ρQ", "CG steps, error in energy", 120),
-  panel(3, "H₃ = PFP + ρQ", "CG steps, error in energy", 80), panel(4, "H₃ = PFP + ρQ", "CG steps, gradient", 80) } }
+dotyk.chart{ file = "images/papers_penalised_spectra_steps.png", columns = 2, size = { 2100, 1500 }, panels = {
+  panel(1, "H₁ = F + ρG̃ᵀG̃: energy", "CG steps", 120), panel(2, "H₂ = F + ρQ: energy", "CG steps", 120),
+  panel(3, "H₃ = PFP + ρQ: energy", "CG steps", 80), panel(4, "H₃ = PFP + ρQ: gradient", "CG steps", 80) } }
 print "images/papers_penalised_spectra.png  images/papers_penalised_spectra_steps.png"
 common.verdict(outside < 1e-10 and kept and least == most and failed.energy > 0 and failed.gradient > 0, ("the intervals of σ(H₁), σ(H₂) and σ(H₃) are true; CG takes more "
   .. "steps than (3.6) says for ρ ≤ %.1g in energy, ρ ≤ %.1g for the gradient (a_P = %.3f, b_P = %.3f); the corrected bounds hold for all ρ"):format(

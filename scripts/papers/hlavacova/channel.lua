@@ -75,10 +75,10 @@ end
 local xe, ye = on_axis(electric)
 local xm, ym = on_axis(magnetic)
 dotyk.chart{ file = "images/channel_axis.png", x = "time [s]", y = "velocity on the axis [m/s]",
-  title = "Mercury, from start to periodic state", series = {
-    { name = "electric field oscillating", x = xe, y = ye, style = "line" },
-    { name = "magnetic field oscillating", x = xm, y = ym, twin = true, style = "line" },
-    { name = "both, by time stepping", x = stepped.x, y = stepped.y, style = "points" } } }
+  title = "Mercury in an oscillating field", series = {
+    { name = "electric field", x = xe, y = ye, style = "line" },
+    { name = "magnetic field", x = xm, y = ym, twin = true, style = "line" },
+    { name = "time stepping", x = stepped.x, y = stepped.y, style = "points" } } }
 
 -- 4. Amplitude against frequency.
 local function sweep(make)

@@ -177,9 +177,10 @@ for component, list in pairs(curves) do
   for n = 2, #points[component], 3 do x[#x + 1], y[#y + 1] = times[(n - 1) % #times + 1], points[component][n] end
   table.insert(list, { name = "time stepping", x = x, y = y, style = "points" })
 end
-dotyk.chart{ file = "images/papers_channel_fields.png", x = "time [s]", size = { 2100, 900 }, columns = 2, panels = {
-  { title = ("Along the channel, E along z: mercury, M = %.1f"):format(mercury.hartmann), y = "u(0, t) [m/s]", series = curves.u, x_range = { 0, 3 } },
-  { title = "Across the channel, E along x", y = "w(0, t) [m/s]", series = curves.w, x_range = { 0, 3 } } } }
+dotyk.chart{ file = "images/papers_channel_fields.png", title = ("Mercury, Hartmann number %.1f"):format(mercury.hartmann),
+  x = "time [s]", size = { 2100, 1000 }, columns = 2, panels = {
+  { title = "Along the channel, E along z", y = "velocity u on the axis [m/s]", series = curves.u, x_range = { -0.04, 3.04 } },
+  { title = "Across the channel, E along x", y = "velocity w on the axis [m/s]", series = curves.w, x_range = { -0.04, 3.04 } } } }
 
 -- 3. Mean and fluctuation on the axis, and their limits for ω → ∞: fluctuation times ω.
 local function limits(liquid, i, phase)
@@ -224,7 +225,7 @@ local by_frequency = {}
 for _, liquid in ipairs{ water, mercury } do
   local list, points = {}, { name = "limit, ω → ∞", x = {}, y = {}, style = "points" }
   for i, f in ipairs(combinations) do
-    local curve, _, limit = common.curve(f.name, { style = "line" }), limits(liquid, i, f.phase)
+    local curve, _, limit = common.curve(f.name, { style = i == 1 and "line" or "both", twin = (i == 3 or i == 5) and liquid == mercury }), limits(liquid, i, f.phase)
     for power = -0.25, 3.01, 0.125 do
       local w = 10^power
       local _, half = series(liquid, liquid.d, f, w).fluctuation(0)
@@ -244,9 +245,9 @@ for _, liquid in ipairs{ water, mercury } do
 end
 dotyk.chart{ file = "images/papers_channel_fields_phase.png", columns = 2, size = { 2100, 1300 }, panels = {
   { title = "Mercury, both oscillate: mean", x = "phase φ [degrees]", y = "mean u [m/s]", series = by_phase.mean, x_range = { 0, 180 } },
-  { title = "Mercury, both oscillate: fluctuation", x = "phase φ [degrees]", y = "half the range · aω", series = by_phase.range, x_range = { 0, 180 } },
-  { title = "Salt water, no pressure gradient", x = "ω [1/s]", y = "half the range [m/s]", log = "xy", slopes = { -1 }, series = by_frequency[1] },
-  { title = "Mercury, −20 kPa/m", x = "ω [1/s]", y = "half the range · aω", log = "x", series = by_frequency[2] } } }
+  { title = "Mercury, both oscillate: fluctuation", x = "phase φ [degrees]", y = "amplitude · aω", series = by_phase.range, x_range = { 0, 180 } },
+  { title = "Salt water, no pressure gradient", x = "angular frequency ω [1/s]", y = "amplitude [m/s]", log = "xy", slopes = { -1 }, series = by_frequency[1] },
+  { title = "Mercury, −20 kPa/m", x = "angular frequency ω [1/s]", y = "amplitude · aω", log = "x", series = by_frequency[2] } } }
 print "images/papers_channel_fields.png  images/papers_channel_fields_phase.png"
 common.verdict(worst.order < 0.05 and worst.program < 1e-9 and rate < 0.55, (
   "u and w in all combinations: series and stepping differ by an error of order two (to %.3f), the program's series by at most %.0e; "

@@ -133,7 +133,7 @@ for k, sweep in ipairs(sweeps) do
 end
 local lines <const> = {}
 for _, sign in ipairs{ 1, -1 } do
-  local loads <const>, curve <const> = forces(-sign, 0.3125 * sign), common.curve(sign == 1 and "−1, 0.3125: free" or "1, −0.3125: supported", { style = "line" })
+  local loads <const>, curve <const> = forces(-sign, 0.3125 * sign), common.curve(sign == 1 and "forces −1, 0.3125" or "forces 1, −0.3125", { style = "line" })
   assert(check(loads, 0.2) == (sign == 1 and "clamped, free" or "clamped, supported"))
   local s <const> = dotyk.solve(stopped(loads, 0.2))
   for i = 0, 100 do curve:add(i / 100, 1000 * s:deflection(i / 100)) end
@@ -165,9 +165,9 @@ end
 print(("   40 times: equal to the clamped and supported beam; greatest moment %.4f"):format(most))
 assert(most < 0.4)
 
-local panels <const> = { { title = "Example 1, q = −1: claimed to turn for T₁ > 0.5", x = "M₁", y = "T₁", map = map:cells(), series = {} },
-  { title = "Example 2", x = "M₁", y = "moment m at 0", y_right = "reaction R at 1", series = series },
-  { title = "Example 3: W = 0, M₁ = 0.2", x = "x", y = "1000 u", series = lines } }
+local panels <const> = { { title = "Example 1, q = −1", x = "bound M₁ of the moment", y = "bound T₁ of the force", map = map:cells(), series = {} },
+  { title = "Example 2", x = "bound M₁ of the moment", y = "moment m at 0", y_right = "reaction R at 1", series = series },
+  { title = "Example 3, M₁ = 0.2", x = "x", y = "deflection u · 10³", series = lines } }
 local function border(x, y) table.insert(panels[1].series, { x = x, y = y, reference = true, style = "line" }) end
 border({ 0, 1 / 8, 1 / 4 }, { 1 / 2, 5 / 8, 5 / 8 })
 border({ 1 / 8, 1 / 8 }, { 5 / 8, 0.72 })

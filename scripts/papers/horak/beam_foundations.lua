@@ -161,8 +161,8 @@ local shown <const> = { pressures[1], pressures[2], pressures[3], lines[1], line
 for i = 4, 6 do shapes[i] = lines[i] end
 for i, line in ipairs(lines) do line.name, line.reference, line.style = (i == 1 or i == 4) and "exact" or nil, true, nil end
 dotyk.chart{ file = "images/papers_beam_foundations.png", columns = 2, size = { 2100, 1400 }, panels = {
-  { title = "A force on a long beam", x = "λx", y = "pressure / peak of Winkler's", x_range = { -6, 6 }, series = shown },
-  { title = "Clamped, floors of curvature κ", x = "x", y = "deflection / gap at the clamps", series = shapes },
+  { title = "A force on a long beam", x = "position λx", y = "pressure / peak of Winkler's", x_range = { -6.3, 6.3 }, series = shown },
+  { title = "Clamped, floors of curvature κ", x = "x", y = "deflection / gap at the middle", y_range = { -1.3, 0.1 }, x_range = { -0.1, 2.1 }, series = shapes },
   { title = "A force: error of the deflection", x = "length of a cell", y = "relative error", log = "xy", slopes = { 2, 4 }, series = { table.unpack(order, 1, 3) } },
   { title = "Floors: error of the deflection", x = "length of a cell", y = "relative error", log = "xy", slopes = { 2 }, series = { table.unpack(order, 4) } } } }
 print "images/papers_beam_foundations.png"

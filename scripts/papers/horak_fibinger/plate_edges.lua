@@ -78,7 +78,7 @@ for _, problem in ipairs(problems) do
   local series <const> = {}
   for _, element in ipairs{ "morley", "hct" } do
     local of <const> = {}
-    for k, what in ipairs{ "energy", "L2", "reactions" } do of[k] = common.curve(labels[element] .. ", " .. what) end
+    for k, what in ipairs{ "energy", "L2", "reactions" } do of[k] = common.curve(labels[element] .. ", " .. what:gsub("L2", "L²")) end
     local n = 8
     while n <= finest do
       local s <const> = dotyk.solve(make(known, n, element))
@@ -186,11 +186,11 @@ end
 panels[1].series = { along("g₂, moments", free.M), along("g₃, forces", free.T) }
 panels[3].series = { along("κ and −κ", friction.data, { reference = true }), along(nil, function(...) return -friction.data(...) end, { reference = true }),
   along("Tₙ", friction.T), reactions "friction" }
-panels[5].series = { along("0.001 k", function(...) return down * springs.data(...) end, { reference = true }), along("Tₙ", springs.T), reactions "springs" }
+panels[5].series = { along("k / 1000", function(...) return down * springs.data(...) end, { reference = true }), along("Tₙ", springs.T), reactions "springs" }
 dotyk.chart{ file = "images/papers_plate_edges.png", panels = panels, columns = 2, size = { 2100, 1800 } }
 smooth:render{ file = "images/papers_plate_edges_free.png", title = "Free plate under g₂(s), g₃(s) and f" }
 solved.friction:render{ file = "images/papers_plate_edges_friction.png", view = "plan", title = "Friction κ(s) along the edge" }
-solved.springs:render{ file = "images/papers_plate_edges_springs.png", title = "One-sided springs k(s): the edge is open on the left" }
+solved.springs:render{ file = "images/papers_plate_edges_springs.png", title = "One-sided springs k(s) at the edge" }
 print "images/papers_plate_edges.png, …_free.png, …_friction.png, …_springs.png"
 common.verdict(wrong < 1, ("with data that vary along the edge both elements tend to the known deflections with order 1 or 2; lengths that stick or are open are off by %.2f √h at most")
   :format(wrong))

@@ -18,7 +18,7 @@ local methods <const> = {
   { name = "many rows a step", make = dotyk.solver.active_set{ change = "many" } },
   { name = "interior point", make = dotyk.solver.interior_point{} },
   { name = "penalty 1000", make = dotyk.solver.penalty{ factor = 1000 } },
-  { name = "pdas", make = dotyk.solver.pdas{} },
+  { name = "PDAS", make = dotyk.solver.pdas{} },
 }
 
 local function distance(s, exact) return math.abs(s.energy - exact.energy) / math.abs(exact.energy) end
@@ -69,7 +69,7 @@ for _, method in ipairs(methods) do
     series[#series + 1] = { x = space.x, y = space.y, twin = true }
   end
 end
-dotyk.chart{ file = "images/semicoercive.png", x = "contact rows (solid: five blocks apart, dashed: ball in a corner)",
-             y = "iterations", log = "xy", series = series, size = { 1000, 750 } }
+dotyk.chart{ file = "images/semicoercive.png", title = "Five blocks; dashed: ball in a corner", x = "contact nodes",
+             y = "iterations", y_range = { 1, 1000 }, log = "xy", series = series, size = { 1000, 750 } }
 print "images/semicoercive.png"
 assert(met == survived and worst < 1e-9)

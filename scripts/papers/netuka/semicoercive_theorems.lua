@@ -154,7 +154,7 @@ print "floor and wall with (29): unique, yet no case of theorem 2.1, for dim R_V
 
 -- 2. Stops at a distance: the range closes.
 local g <const> = 5e-4
-local low <const>, high <const> = common.curve("least", { style = "points" }), common.curve("greatest, by s.reason", { style = "points" })
+local low <const>, high <const> = common.curve("least", { style = "points" }), common.curve("greatest", { style = "points" })
 local exact <const> = { common.curve("closed form", { style = "line", reference = true }), common.curve(nil, { style = "line", reference = true }) }
 for k = 1, 20 do
   local p = 0.2 * k
@@ -203,14 +203,14 @@ for k, panel in ipairs(panels) do
   panel.all = nil
   if single[k].x[1] then panel[#panel + 1] = single[k] end
 end
-local place <const> = "place t of the block's side [1e-3]"
-dotyk.chart{ file = "images/papers_semicoercive_theorems.png", columns = 3, size = { 2100, 1300 }, panels = {
-  { title = "2.1, 2.4: held, or free up and down", x = place, y = "least J with it there [1e-3]", series = panels[1], y_range = { -1.6, 2.2 } },
-  { title = "2.4, R_K = {0}: floor and ceiling", x = place, y = "least J with it there [1e-3]", series = panels[2] },
-  { title = "2.2: floor and wall", x = place, y = "least J with it there [1e-3]", series = panels[4], y_range = { -2.2, 1.6 } },
-  { title = "2.3: free to both sides", x = place, y = "least J with it there [1e-3]", series = panels[3], y_range = { -0.9, 0 } },
-  { title = "2.2 with gaps: pressed between stops", x = "pressure p", y = "middle of the block [1e-3]", series = { low, high, table.unpack(exact) } },
-  { title = "2.2 without (29): tipping load", x = "cells a side", y = "least J [1e-3]", log = "x", series = tipping },
+local place <const> = "place t of the block · 10³"
+dotyk.chart{ file = "images/papers_semicoercive_theorems.png", columns = 2, size = { 2100, 2000 }, panels = {
+  { title = "2.1, 2.4: held, or free vertically", x = place, y = "least J · 10³", series = panels[1], y_range = { -1.6, 2.2 } },
+  { title = "2.4, R_K = {0}: floor and ceiling", x = place, y = "least J · 10³", series = panels[2] },
+  { title = "2.2: floor and wall", x = place, y = "least J · 10³", series = panels[4], y_range = { -2.2, 1.6 } },
+  { title = "2.3: free to both sides", x = place, y = "least J · 10³", series = panels[3], y_range = { -0.9, 0 } },
+  { title = "2.2: pressed between stops", x = "pressure p", y = "middle of the block · 10³", series = { low, high, table.unpack(exact) } },
+  { title = "2.2: tipping load", x = "cells per side", y = "least J · 10³", log = "x", series = tipping },
 } }
 print "images/papers_semicoercive_theorems.png"
 common.verdict(most < 1e-5, ("%d scenes have the solutions that theorems 2.1 to 2.4 and closed forms give, and none, a half-line or a range of them beyond their "

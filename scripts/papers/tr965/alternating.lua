@@ -84,6 +84,7 @@ for half = 0, 12 do
 end
 print(header .. "  Newton")
 local series = {}
+local called <const> = { T2 = "plane, given", C2 = "plane, Coulomb", S3T = "space, given", S3C = "space, Coulomb", S3P = "space, P1-P0" }
 local shown <const> = math.min(128, finest)
 for _, case in ipairs{ { "T2", scenes.blocks, given, 16 }, { "T2", scenes.blocks, given, shown }, { "C2", scenes.blocks, coulomb, 16 },
                        { "C2", scenes.blocks, coulomb, shown }, { "S3T", scenes.cube, hard, 8 }, { "S3C", scenes.cube, coulomb, 8 }, { "S3P", cells, soft, 8 } } do
@@ -102,10 +103,11 @@ for _, case in ipairs{ { "T2", scenes.blocks, given, 16 }, { "T2", scenes.blocks
   local newton = dotyk.solver.newton{}:solve(scene)
   print(("%-5s %5d  %8.3g%s  %6d"):format(name, n, limit, line, newton.iterations))
   newton_most = math.max(newton_most, newton.iterations)
-  series[#series + 1] = { name = ("%s, n = %d (bound %.3g)"):format(name, n, limit), x = x, y = y }
+  series[#series + 1] = { name = ("%s, %d"):format(called[name], n), x = x, y = y }
   if #lost > 0 then series[#series + 1] = { x = lost, twin = true, crossed = true, style = "points" } end
 end
-series[#series + 1] = { name = ("Newton: %d at most"):format(newton_most), x = { 1, 1e6 }, y = { newton_most, newton_most }, reference = true }
+series[#series + 1] = { name = ("Newton: at most %d"):format(newton_most), x = { 1, 1e6 }, y = { newton_most, newton_most }, reference = true }
 
-dotyk.chart{ file = "images/alternating.png", log = "xy", x = "ρ [force/displacement]", y = "iterations", series = series }
+dotyk.chart{ file = "images/alternating.png", size = { 2000, 1000 }, log = "xy",
+  title = "Alternating method on 8 to 128 cells", x = "ρ [force/displacement]", y = "iterations", series = series }
 print "images/alternating.png"

@@ -17,6 +17,7 @@
 local finest <const> = tonumber(arg[1]) or 128
 local common <const> = include "../../lib/common.lua"
 local g <const>, choices <const> = 1, { "own", "joined", "bare" }
+local names <const> = { own = "cells of their own", joined = "joined to the next", bare = "no friction there" } -- of the half edges
 
 -- 1. A straight line.
 local function block(m, ends, move)
@@ -60,14 +61,14 @@ for _, case in ipairs{ { "all of it slips", 0.1 }, { "the middle sticks", 0.02 }
     print(line)
     if k > 1 then farther = math.min(farther, math.abs(off.slipbare / off.slipown)) end
   end
-  panels[#panels + 1] = { title = case[1], log = "xy", x = "edges of the contact line", y = "deviation of the slip", series = {} }
+  panels[#panels + 1] = { title = case[1]:gsub("^%l", string.upper), log = "xy", x = "edges of the contact line", y = "relative error of the slip", series = {} }
   local n <const> = #found.bare
   order[#order + 1] = math.log((found.own[n - 1].energy - found.bare[n - 1].energy) / (found.own[n].energy - found.bare[n].energy), 2)
   for _, ends in ipairs(choices) do
     local x, y = {}, {}
     for k, f in ipairs(found[ends]) do x[k], y[k] = f.m, math.abs(f.slip / limit.slip - 1) end
     x[#x], y[#y] = nil, nil -- the limit is made from the last
-    panels[#panels].series[#panels[#panels].series + 1] = { name = ends, x = x, y = y, style = ends == "joined" and "points" or nil }
+    panels[#panels].series[#panels[#panels].series + 1] = { name = names[ends], x = x, y = y, style = ends == "joined" and "points" or nil }
   end
 end
 
@@ -94,7 +95,7 @@ for n = 2, math.min(16, finest // 4), 2 do
   end
 end
 
-print(dotyk.chart{ file = "images/papers_friction_cells.png", columns = 2, panels = panels })
+print(dotyk.chart{ file = "images/papers_friction_cells.png", columns = 2, size = { 2000, 850 }, title = "Friction on the half edges at the ends", panels = panels })
 common.verdict(same < 0.02 and farther > 1.5 and math.abs(order[1] - 1) < 0.1 and kernels.kept == 2 and kernels.shared == 0, (
   "all choices have one limit (to %.1f %%); ends without friction, as printed, are %.1f times and more as far from it, with an energy too low by a term of order %.2f; "
   .. "at a corner within the line only cells joined to the next leave B its rank: kernel %d for 2"):format(100 * same, farther, order[1], kernels.shared))

@@ -55,7 +55,7 @@ local space <const> = { finest // 4, finest // 2, finest }
 local plane <const> = { finest // 2, finest, 2 * finest }
 study(2, plane, { 1, 2, 3, 4 })
 study(3, space, { 1, 2, 3, 4 })
-dotyk.chart{ file = "images/inf_sup.png", x = "h/H", y = "inf-sup constant of friction", series = curves }
+dotyk.chart{ file = "images/inf_sup.png", x = "mesh size h / cell size H of multipliers", y = "inf-sup constant of friction", series = curves }
 
 -- 3. Refinement: what keeps its constant, and what loses it.
 local failing = {}
@@ -75,10 +75,10 @@ end
 print "under refinement"
 local both <const> = { part = "both" }
 refined("plane, nodal forces", 2, plane, { multipliers = "nodal" }, both, "plane, nodal")
-refined("plane, dual cells", 2, plane, {}, both, "plane, dual cells")
+refined("plane, dual cells", 2, plane, {}, both, "plane, dual")
 refined("plane, dual cells, Q1", 2, plane, { element = "Q1" }, both)
 refined("space, H = 2h", 3, space, {}, {}, "space, H = 2h")
-refined("space, H = 2h, with pressure", 3, space, {}, both, "space, H = 2h, with pressure")
+refined("space, H = 2h, with pressure", 3, space, {}, both, "H = 2h, pressure")
 refined("space, H = 2h, Q1", 3, space, { element = "Q1" }, {})
 refined("space, H = h: two triangles", 3, space, { cells = 1 }, {}, "space, H = h")
 refined("space, H = h, Q1: one quadrilateral", 3, space, { cells = 1, element = "Q1" }, {}, "space, H = h, Q1")
@@ -87,7 +87,7 @@ refined("space, single triangles", 3, { space[1], space[2] }, { cells = 0.01 }, 
 -- 4. Ends of the contact held by supports on both sides: multipliers of their own form a kernel.
 refined("plane, ends held, cells shared out", 2, plane, { clamped = true }, {})
 refined("plane, ends held, cells kept", 2, plane, { clamped = true }, { fixed_nodes = "kept" }, "plane, ends held")
-dotyk.chart{ file = "images/inf_sup_refined.png", x = "h", y = "inf-sup constant", log = "x", series = failing }
+dotyk.chart{ file = "images/inf_sup_refined.png", x = "mesh size h", y = "inf-sup constant", y_range = { -0.06, 1.5 }, log = "x", series = failing }
 
 -- 5. (3.16) as printed asks for the norm of μ_t, not of the shear g μ_t, and of the multipliers of M_hn × M_Ht alone, pressures ≥ 0 (the bound 1 of
 --    |μ_t| does not matter: both sides are homogeneous). With g between g₀ and 1 its constant is from g₀ times that of the shear to as great. On

@@ -272,9 +272,9 @@ for _, case in ipairs(cases) do
   if not case.cantilever then sizes[#sizes + 1], margins[#margins + 1] = size, left end
 end
 dotyk.chart{ file = "images/papers_m_matrix.png", size = { 1000, 1200 }, panels = {
-  { title = "How far (BA⁻¹Bᵀ)⁻¹ is from an M-matrix", log = "x", x = "cells along the contact", y = "‖K⁻¹‖₁ ‖P‖₁", x_range = { 1.6, 80 }, y_range = { 0, 1.25 },
+  { title = "Distance from an M-matrix", log = "x", x = "cells along the contact", y = "relative perturbation", x_range = { 1.6, 80 }, y_range = { 0, 1.25 },
     series = sizes },
-  { title = "What PDAS needs: above 0 (1 for an M-matrix)", log = "x", x = "cells along the contact", y = "least margin found", x_range = { 1.6, 80 },
+  { title = "Margin of PDAS (M-matrix: 1)", log = "x", x = "cells along the contact", y = "least margin", x_range = { 1.6, 80 },
     y_range = { 0, 1 }, series = margins } } }
 print "images/papers_m_matrix.png"
 common.verdict(wrong < 1e-9 and block.grows and block.least > 0 and strip.other and strip.most < -1 and repeats == 0, (

@@ -177,7 +177,7 @@ local panels = {}
 for _, one in ipairs{ scenes[#scenes - 1], scenes[#scenes] } do
   local rho <const> = 1e3
   local r <const>, steepest = radius(one.y, rho), math.max(1, rho * one.y.norm)
-  local worst, usual = common.curve("greatest of all h", { style = "line" }), common.curve("greatest of 100 random h", { style = "points" })
+  local worst, usual = common.curve("greatest of all h", { style = "line" }), common.curve("greatest of 100", { style = "points" })
   for step = 0, 300 do
     local length <const>, most, random_most = r * 0.5 * 100^(step / 300), 0, 0
     for j = 1, #one.y.b do most = math.max(most, remainder(one.y, rho, shortest(one.y, rho, j, length))) end
@@ -185,10 +185,10 @@ for _, one in ipairs{ scenes[#scenes - 1], scenes[#scenes] } do
     for _ = 1, step % 6 == 0 and 100 or 0 do random_most = math.max(random_most, remainder(one.y, rho, shake(one.y, length, false))) end
     if step % 6 == 0 then usual:add(length / r, random_most / (length * steepest)) end
   end
-  local panel = { title = one.name, log = "x", x = "length of h / r", y = "remainder / (ρ‖B‖ · length of h)", y_range = { 0, 1.1 }, series = { worst, usual } }
-  local function line(name, at) panel.series[#panel.series + 1] = { name = name, x = { at, at }, y = { 0, 1.1 }, reference = true } end
+  local panel = { title = one.name:gsub("^%l", string.upper), log = "x", x = "length of h / r", y = "remainder / bound", y_range = { -0.06, 1.1 }, series = { worst, usual } }
+  local function line(name, at) panel.series[#panel.series + 1] = { name = name, x = { at, at }, y = { -0.06, 1.1 }, reference = true } end
   line("r", 1)
-  if one.y.norm > 3 then line("r if ‖B‖ were the spectral norm", one.y.norm / one.y.spectral) end
+  if one.y.norm > 3 then line("r, spectral", one.y.norm / one.y.spectral) end
   panels[#panels + 1] = panel
 end
 dotyk.chart{ file = "images/papers_newton_remainder.png", panels = panels, size = { 1000, 1200 } }

@@ -94,7 +94,7 @@ for n = 4, math.min(finest, 12), 4 do
     end
     assert(math.abs(ps) > 1e-5, "the least solution has p(u) = 0 by chance")
     if n == 4 then
-      local curve <const> = common.curve(("γ0 = [%g, %g]"):format((segment[1] - 1) / n, segment[2] / n))
+      local curve <const> = common.curve(("γ₀ = [%g, %g]"):format((segment[1] - 1) / n, segment[2] / n))
       for k = 0, n do curve:add(k / n, 1e5 * (s:displacement(upper, k / n, 0, 0) - ps)) end
       shifted[#shifted + 1] = curve
     end
@@ -172,10 +172,10 @@ end
 local limit_order <const>, energy_order <const> = fit.order(limit_curve.x, limit_curve.y), fit.order(energy_curve.x, energy_curve.y)
 print(("orders in h: M + S(r) %.2f and %.2f, greatest moment %.2f, energy %.2f"):format(orders[1], orders[2], limit_order, energy_order))
 
-dotyk.chart{ file = "images/papers_normalisation.png", columns = 3, size = { 1900, 650 }, panels = {
-  { title = "(a) Normalised by p on γ0", x = "x1", y = "10⁵ u1 on the front edge, n = 4", series = shifted },
-  { title = "(b) Moments about the axis", x = "h", y = "moment", log = "xy", series = { errors[1], errors[2], limit_curve } },
-  { title = "(b) S(r) = 0: solution without p", x = "h", y = "relative difference to that with p", y_right = "turn", log = "xy", series = { forces_curve, energy_curve, turned } } } }
+dotyk.chart{ file = "images/papers_normalisation.png", columns = 3, size = { 2100, 800 }, panels = {
+  { title = "(a) Fixed by p on γ₀", x = "x₁", y = "u₁ · 10⁵ on the front edge", x_range = { -0.05, 1.05 }, series = shifted },
+  { title = "(b) Moments", x = "mesh size h", y = "moment", log = "xy", series = { errors[1], errors[2], limit_curve } },
+  { title = "(c) Without p", x = "mesh size h", y = "relative difference", y_right = "turn", log = "xy", series = { forces_curve, energy_curve, turned } } } }
 print "images/papers_normalisation.png"
 common.verdict(same < 1e-11 and math.min(orders[1], orders[2]) > 1.8 and limit_order > 0.5 and energy_order > 1.8 and refused > 0, (
   "in (a) p chooses one of the solutions, the program's up to a translation (differences %.0e); in (b) it is a support: it bears the load's moment, as the facets do not on finer "

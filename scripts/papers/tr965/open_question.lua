@@ -87,7 +87,7 @@ for _, case in ipairs(cases) do
   failed = failed + r.failed
   local x, y = {}, {} -- the distribution, at 400 places
   for k = 1, 400 do x[k], y[k] = math.max(1e-18, quantile(r.values, k / 400)), k / 4 end
-  series[#series + 1] = { name = name, x = x, y = y, style = "line" }
+  series[#series + 1] = { name = name:find "given" and (name:gsub(", given", "")) or nil, x = x, y = y, style = "line", twin = name:find "given" == nil }
   if name:find "given" and not name:find "free" then assert(r.singular == 0) end
 end
 
@@ -95,8 +95,10 @@ end
 local stuck = dotyk.solver.newton{ watch = true, seed = 1 }:solve(blocks(tresca(1e6), true))
 local m = stuck.history[#stuck.history].singular_value
 print(("in the plane, everything stuck, held: %.3e, the least eigenvalue of W"):format(m))
-dotyk.chart{ file = "images/open_question.png", log = "x", series = series, y = "steps with no greater one [%]",
-             x = "least singular value of the derivative" }
+series[2], series[3] = series[3], series[2] -- the twins
+dotyk.chart{ file = "images/open_question.png", title = "Given friction; dashed: Coulomb, μ = 0.3", log = "x", series = series,
+             x = "least singular value of the derivative", y = "steps not above it [%]", x_range = { 2e-3, 2 }, y_range = { -3, 103 },
+             notes = { { x = 3e-3, y = 55, text = "below: zero by rounding" } } }
 
 -- 4. A growing coefficient of friction.
 print("\nplane, Coulomb, held" .. (" "):rep(12) .. head:sub(33))
@@ -109,7 +111,7 @@ for _, mu in ipairs{ 0.1, 0.2, 0.4, 0.7, 1, 1.5, 2, 3, 4, 5, 6, 7, 8, 10, 15, 30
   low[#x], high[#x] = quantile(r.values, 0.01), quantile(r.values, 0.99)
 end
 dotyk.chart{ file = "images/open_question_mu.png", log = "xy", x = "coefficient of friction",
-  y = "least singular value of the derivative",
+  y = "least singular value", y_range = { 1e-6, 1 },
   series = { { name = "median, 1% to 99%", x = x, y = middle, low = low, high = high },
              { name = "least of all steps", x = x, y = smallest },
              { name = "everything stuck", x = { x[1], x[#x] }, y = { m, m }, style = "line", reference = true } } }

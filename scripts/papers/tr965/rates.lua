@@ -138,10 +138,10 @@ for k, field in ipairs(fields) do
     if which == 1 or which == 3 then panel[k] = { name = ("%s: α = %.2f"):format(field.name, alpha), x = h, y = e } end
   end
 end
-local range <const>, label <const> = { 1.6 / finest, 20 / finest }, "error in the energy norm, relative"
+local range <const>, label <const> = { 1.6 / finest, 20 / finest }, "relative energy error"
 dotyk.chart{ file = "images/papers_rates.png", size = { 1000, 1200 }, panels = {
-  { title = "No friction", log = "xy", x = "h", y = label, x_range = range, series = curves[1], slopes = { 1, 0.75, 0.5 } },
-  { title = "Given friction, P1-P0 multipliers", log = "xy", x = "h", y = label, x_range = range, series = curves[2], slopes = { 1, 0.75, 0.5 } } } }
+  { title = "No friction", log = "xy", x = "mesh size h", y = label, x_range = range, series = curves[1], slopes = { 1, 0.75, 0.5 } },
+  { title = "Given friction", log = "xy", x = "mesh size h", y = label, x_range = range, series = curves[2], slopes = { 1, 0.75, 0.5 } } } }
 print "images/papers_rates.png"
 common.verdict(off < 0.04 and apart < 1e-3, (
   "without friction α = %s, expected 1, 3/4 and 1/2 (between the finest meshes to %.3f); the same with given friction, where nodal and P1-P0 multipliers, "

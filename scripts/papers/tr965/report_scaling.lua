@@ -46,7 +46,7 @@ local function sweep(title, sizes, bounds, build)
   print(("\n%s: greatest power of 10 that converges, Uzawa's bound, fewest iterations\n  n      g        force/displacement                 the report's"):format(title))
   local series = {}
   for _, g in ipairs(bounds) do
-    local own <const> = { { name = ("the report's, g = %g"):format(g), x = {}, y = {} }, { name = "one for all forces, every g", x = {}, y = {} } }
+    local own <const> = { { name = ("scaled, g = %g"):format(g), x = {}, y = {} }, { name = "unscaled, every g", x = {}, y = {} } }
     for _, n in ipairs(sizes) do
       local line = ("%3d  %5g"):format(n, g)
       for k, unit in ipairs{ "force/displacement", "report" } do
@@ -69,7 +69,7 @@ local of <const> = sweep("two blocks in the plane", sizes, { 0.5, 5, 50 }, funct
 sweep("a punch in space", finest >= 64 and { 8, 12 } or { 8 }, { 5, 50 }, function(n, law) return scenes.cube(n, law, "P1-P0") end)
 local function ratio(y) return y[#y] / y[1] end
 local flat <const>, falls <const>, steep <const> = ratio(of[2].y), 1 / ratio(of[1].y), ratio(of[4].y)
-print(dotyk.chart{ file = "images/papers_report_scaling.png", log = "xy", x = "cells along a side", y = "bound 2/λ_max of rho", series = of })
+print(dotyk.chart{ file = "images/papers_report_scaling.png", log = "xy", x = "cells along a side", y = "bound 2/λ_max of ρ", series = of })
 local finer <const> = sizes[#sizes] / sizes[1]
 common.verdict(math.abs(flat - 1) < 0.05 and math.abs(falls / finer - 1) < 0.2 and math.abs(steep / finer - 1) < 0.2 and below > 0.5, (
   "from n = %d to %d the bound of one rho for all forces falls %.1f times; in the report's units it changes by %.0f %% for a small g and grows %.1f times for "

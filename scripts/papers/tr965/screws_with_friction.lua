@@ -95,7 +95,7 @@ for _, share in ipairs{ 0.5, 0.8, 0.9, 0.95, 0.98, 0.99, 0.999 } do
     s.converged and "" or ": " .. s.reason:match "^[^;]*"))
   assert(exact.converged and (s.converged or sticks < 2))
   if s.converged then assert(math.abs(s:distance(exact).displacement) < 1e-8) end
-  x[#x + 1], slips[#slips + 1] = share, (exact:displacement(block, 2, 0))
+  x[#x + 1], slips[#slips + 1] = share, 1000 * (exact:displacement(block, 2, 0))
 end
 for _, share in ipairs{ 1.001, 1.1 } do
   local scene <const> = sliding(share)
@@ -105,7 +105,7 @@ for _, share in ipairs{ 1.001, 1.1 } do
   end
 end
 print "beyond the bound both kernels refuse it"
-print(dotyk.chart{ file = "images/papers_screws_with_friction.png", x = "V / bound", y = "slip of the right corner", series = { { x = x, y = slips } } })
+print(dotyk.chart{ file = "images/papers_screws_with_friction.png", x = "horizontal load V / its bound", y = "slip of the right corner · 10³", series = { { x = x, y = slips } } })
 
 -- 3. Free cubes.
 print "\nfree cubes: placements tried, iterations in all; – where it does not end\ncells  multipliers  load            kernel = \"exact\": newton  uzawa_pdas    \"screws\": newton      uzawa_pdas  corner cells that stick"

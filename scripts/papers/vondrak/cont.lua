@@ -148,11 +148,11 @@ local function edge(alpha) -- the lower edge above the other body
   return y
 end
 local lines <const> = {}
-for k, kind in ipairs(kinds) do lines[k] = { name = ("%s: %d in all"):format(kind.name, kind.sum.designs), x = radii, y = kind.designs, style = "points" } end
-print("wrote", dotyk.chart{ file = "images/cont.png", size = { 1000, 1050 }, title = "Two bodies in contact: a shape of least compliance", panels = {
-  { x = "x", y = "pressure", series = { { name = "first design", x = x, y = before, style = "line" }, { name = "best design", x = x, y = after, style = "line" } } },
-  { x = "x", y = "gap at rest", series = { { name = "first design", x = x, y = edge(), style = "line" }, { name = "best design", x = x, y = edge(exact.best.alpha), style = "line" } } },
-  { x = "first radius of the trust region", y = "designs", series = lines } } })
+for k, kind in ipairs(kinds) do lines[k] = { name = kind.name, x = radii, y = kind.designs, style = "points" } end
+print("wrote", dotyk.chart{ file = "images/cont.png", columns = 3, size = { 2100, 800 }, panels = {
+  { title = "Pressure", x = "x", y = "pressure", series = { { name = "first design", x = x, y = before, style = "line" }, { name = "best design", x = x, y = after, style = "line" } } },
+  { title = "Gap", x = "x", y = "gap at rest", series = { { name = "first design", x = x, y = edge(), style = "line" }, { name = "best design", x = x, y = edge(exact.best.alpha), style = "line" } } },
+  { title = "Designs by step h", x = "first trust radius", y = "number of designs", y_range = { 1.5, 5.5 }, series = lines } } })
 local look <const> = { field = "von_mises", deform = 1, range = { 0, 6000 }, window = { -0.1, -1.05, 2.15, 0.85 }, size = { 1200, 900 } }
 for _, it in ipairs{ { first, "images/cont_first.png", "First design" }, { best, "images/cont_best.png", "Least compliance" } } do
   look.file, look.title = it[2], it[3]

@@ -70,8 +70,7 @@ local design <const> = cont.shape(nil, pdas):design()
 print(("used: the upper body clamped left, sliding right, the lower one sliding on all three sides; gap %.6f, %d unknowns, first compliance %.4f"):format(
   cont.gap, design.solution.unknowns, design.compliance.value))
 assert(math.abs(design.compliance.value - 25.1552) < 1e-4)
-design.solution:render{ file = "images/papers_cont_scene.png", field = "uy", deform = 1, size = { 1200, 1000 },
-  title = ("Problem “cont”, %d unknowns: first design"):format(design.solution.unknowns) }
+design.solution:render{ file = "images/papers_cont_scene.png", field = "uy", deform = 1, size = { 1200, 900 }, title = "Two bodies in contact: first design" }
 print "images/papers_cont_scene.png"
 
 -- 2. Sensitivities of the y-displacement along the upper body's lower edge.
@@ -92,8 +91,12 @@ local panels <const>, worst <const>, enough <const> = {}, { 0, 0, 0 }, {}
 for i = 1, 6 do
   local derivative <const>, most = {}, 0
   for k, u in ipairs(exact) do derivative[k], most = u.gradient[i], math.max(most, math.abs(u.gradient[i])) end
-  local function named(text) return i == 1 and text or nil end -- one legend for all
-  local series <const>, off <const>, needed <const> = { { name = named "exact", x = x, y = derivative, style = "line", front = true } }, {}, {}
+  local function third(list) -- of the nodes, with the one of the peak and the last
+    local some <const> = {}
+    for k = 2, #list, 3 do some[#some + 1] = list[k] end
+    return some
+  end
+  local series <const>, off <const>, needed <const> = { { name = "exact", x = x, y = derivative, style = "line" } }, {}, {}
   enough[i] = {}
   for j, h in ipairs(steps) do
     local alpha <const>, difference <const>, error = { 0, 0, 0, 0, 0, 0 }, {}, 0
@@ -104,13 +107,14 @@ for i = 1, 6 do
     end
     worst[j], enough[i][j] = math.max(worst[j], error), 0.1 * alpha[i] * most / most_u
     off[j], needed[j] = ("%8.0e"):format(error), ("%8.0e"):format(enough[i][j])
-    if j < 3 then series[j + 1] = { name = named("h = " .. h), x = x, y = difference, style = "line", reference = j == 1 } end
+    if j == 1 then series[2] = { name = "h = 2.5 × 10⁻²", x = x, y = difference, reference = true } end
+    if j == 2 then series[3] = { name = "h = 2.5 × 10⁻³", x = third(x), y = third(difference), style = "points" } end
   end
   print(("%5d %14.4f %26s"):format(i, most, "") .. table.concat(off) .. (" "):rep(34) .. table.concat(needed))
-  panels[i] = { title = ("variable %d"):format(i), x = "x", y = "∂u_y/∂α" .. utf8.char(0x2080 + i), series = series }
+  panels[i] = { title = ("Variable %d"):format(i), x = "x", y = "∂u₂/∂α" .. utf8.char(0x2080 + i), series = series }
 end
-dotyk.chart{ file = "images/papers_cont_sensitivities.png", panels = panels, columns = 3, size = { 1700, 1000 },
-  title = "∂u_y along the upper body's lower edge at the first design: exact and by differences" }
+dotyk.chart{ file = "images/papers_cont_sensitivities.png", panels = panels, columns = 3, size = { 2100, 1200 },
+  title = "Derivatives of the displacement u₂, exact and by differences" }
 print "images/papers_cont_sensitivities.png"
 assert(worst[1] > worst[2] and worst[2] > worst[3] and worst[3] < 1e-3)
 local blamed <const> = math.min(enough[4][2], enough[5][2])

@@ -202,6 +202,6 @@ for _, case in ipairs(cases) do
     last, cells = e, 2 * cells
   end
 end
-dotyk.chart{ file = "images/beam_orders.png", title = "A beam on a one-sided spring: relative errors", x = "length of a cell", y = "error", log = "xy",
+dotyk.chart{ file = "images/beam_orders.png", title = "A beam on a one-sided spring", x = "length of a cell", y = "relative error", log = "xy",
   series = curves, slopes = { 3, 4 } }
 print "images/beam_orders.png"

@@ -166,7 +166,7 @@ print(("  the loop closes within %.1e of its width"):format(math.abs(excess[61] 
 
 -- 7. Figures: tractions, zones, the loop.
 local at, p, shear, px, pe, qx, qe = {}, {}, {}, {}, {}, {}, {}
-local stride <const> = math.max(1, cells // 256)
+local stride <const> = math.max(1, cells // 128)
 for k, node in ipairs(result.nodes) do
   if k % stride == 0 and math.abs(node.x) < 1.4 * result.exact.a then
     at[#at + 1], p[#p + 1], shear[#shear + 1] = node.x, mu * node.pressure, -node.shear[1]
@@ -176,10 +176,10 @@ for i = -200, 200 do
   local x, stick = result.exact.a * i / 200, result.exact.c * i / 200
   px[#px + 1], pe[#pe + 1], qx[#qx + 1], qe[#qe + 1] = x, mu * result.exact.p(x), stick, result.exact.q(stick)
 end
-dotyk.chart{ file = "images/cattaneo_mindlin.png", x = "x [mm]", y = "traction [MPa]", series = {
-  { name = "μ times pressure, nodes", x = at, y = p, style = "points" },
-  { name = "shear, nodes", x = at, y = shear, style = "points" },
-  { name = "Hertz, Cattaneo and Mindlin", x = px, y = pe, reference = true },
+dotyk.chart{ file = "images/cattaneo_mindlin.png", x = "x [mm]", y = "traction [MPa]", y_range = { -15, 350 }, series = {
+  { name = "μ × pressure", x = at, y = p, style = "points" },
+  { name = "shear", x = at, y = shear, style = "points" },
+  { name = "theory", x = px, y = pe, reference = true },
   { x = qx, y = qe, reference = true } } }
 solve(coarse):render{ file = "images/cattaneo_mindlin_zones.png", field = "xy", units = { length = "mm", stress = "MPa" }, edges = false, window = { -2.2, -1.6, 2.2, 1.6 } }
 local function curve(from, to, turn)
@@ -195,5 +195,5 @@ for k, leg in ipairs{ { 0, top }, { top, -top, 1 }, { -top, top, -1 } } do
   local x, y = curve(table.unpack(leg))
   series[#series + 1] = { name = k == 1 and "closed form" or nil, x = x, y = y, reference = true }
 end
-dotyk.chart{ file = "images/hysteresis.png", x = "displacement by slip [µm]", y = "Q / (μP)", series = series }
+dotyk.chart{ file = "images/hysteresis.png", x = "displacement by slip [µm]", y = "shear force Q / (μP)", series = series }
 print "images/cattaneo_mindlin.png, images/cattaneo_mindlin_zones.png, images/hysteresis.png"

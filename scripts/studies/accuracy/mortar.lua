@@ -111,16 +111,16 @@ local hx, hy = {}, {}
 for i = 0, 100 do hx[#hx + 1], hy[#hy + 1] = i / 100, math.sqrt(1 - (i / 100)^2) end
 local flat, flat_contact = blocks(2, { "Q1", "Q1" }, 7, 5, "mortar")
 local uneven, uneven_contact = blocks(2, { "Q1", "Q1" }, 7, 5, "node_to_segment")
-dotyk.chart{ file = "images/mortar.png", size = {1000, 1250}, panels = {
-  { title = "Patch test, 7 edges on 5", x = "x", y = "p / exact",
+dotyk.chart{ file = "images/mortar.png", columns = 3, size = { 2100, 800 }, panels = {
+  { title = "Patch test, 7 edges on 5", x = "x", y = "pressure / exact",
     series = { series("mortar", flat:contact(flat_contact).nodes, 1, p),
                series("node to segment", uneven:contact(uneven_contact).nodes, 1, p) } },
-  { title = ("Hertz, %d cells on %d"):format(finest, 7 * finest // 5), x = "x / a", y = "p / p_0",
+  { title = ("Hertz, %d cells on %d"):format(finest, 7 * finest // 5), x = "x / half width", y = "pressure / Hertz's peak",
     series = { { name = "Hertz", x = hx, y = hy, reference = true }, series("mortar", shown.mortar.nodes, shown.mortar.a, shown.mortar.p0, "line"),
                series("node to segment", shown.feet.nodes, shown.feet.a, shown.feet.p0, "points") } },
-  { title = "Hertz, error in L²", x = "cells along an edge", y = "error [%]", log = "xy", slopes = { -1 },
-    series = { { name = "matching nodes", x = chart.x, y = chart.matching }, { name = "mortar, 5:7", x = chart.x, y = chart.mortar },
-               { name = "node to segment, 5:7", x = chart.x, y = chart.feet } } } } }
+  { title = "Hertz, 5 cells on 7", x = "cells along an edge", y = "error in L² [%]", log = "xy", slopes = { -1 },
+    series = { { name = "mortar", x = chart.x, y = chart.mortar }, { name = "node to segment", x = chart.x, y = chart.feet },
+               { name = "matching nodes", x = chart.x, y = chart.matching } } } } }
 local scene <const> = hertz.scene(40, 56, "mortar", "Q1", 0.2)
 dotyk.solve(scene):render{ file = "images/mortar_hertz.png", field = "von_mises", units = { length = "mm", stress = "MPa" }, deform = 1, edges = true, window = {0, -7, 9, 4} }
 print "\nimages/mortar.png, images/mortar_hertz.png"

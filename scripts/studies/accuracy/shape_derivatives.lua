@@ -57,10 +57,10 @@ end
 
 -- 2. Quantities of a design, dual numbers all.
 local quantities <const> = {
-  { "smoothed peak pressure", function(d) return d.peak_pressure end },
-  { "displacement at a point", function(d, case) return (select(#case.at, d:displacement(case.body, table.unpack(case.at)))) end },
-  { "pressure at a node", function(d, case) return d:contact(case.contact)[case.node].pressure end },
-  { "a function in Lua", function(d, case) -- how far the centre of the contact's force is from a point
+  { "smoothed peak", function(d) return d.peak_pressure end },
+  { "displacement", function(d, case) return (select(#case.at, d:displacement(case.body, table.unpack(case.at)))) end },
+  { "nodal pressure", function(d, case) return d:contact(case.contact)[case.node].pressure end },
+  { "user's function", function(d, case) -- how far the centre of the contact's force is from a point
     local force, x, y = 0, 0, 0
     for _, node in ipairs(d:contact(case.contact)) do
       force, x, y = force + node.force, x + node.force * node.x, y + node.force * node.y
@@ -117,9 +117,9 @@ local function most_pressed(nodes)
   return most
 end
 local panels <const> = {}
-for _, smooth in ipairs{ { "Two bodies in the plane", cantilever }, { "A block on a ball", block_on_ball },
-                         { "Two bodies, given friction", cantilever, tresca(300) }, { "A block on a ball, given friction", block_on_ball, tresca(12) },
-                         { "Two bodies, Coulomb friction", cantilever, coulomb(0.4) }, { "A block on a ball, Coulomb friction", block_on_ball, coulomb(0.2) } } do
+for _, smooth in ipairs{ { "Plane", cantilever }, { "Space", block_on_ball },
+                         { "Plane, given friction", cantilever, tresca(300) }, { "Space, given friction", block_on_ball, tresca(12) },
+                         { "Plane, Coulomb friction", cantilever, coulomb(0.4) }, { "Space, Coulomb friction", block_on_ball, coulomb(0.2) } } do
   local case <const> = smooth[2](smooth[3])
   if panels[4] then case.quantities = table.move(quantities, 1, #quantities - 1, 1, {}) end
   local first <const> = shape_of(case):design(case.alpha)
@@ -132,7 +132,7 @@ for _, smooth in ipairs{ { "Two bodies in the plane", cantilever }, { "A block o
   panels[#panels + 1] = { title = title, y = "relative error", log = "xy", series = series }
   series[#series + 1] = { name = "10⁻⁶", reference = true, x = { 1e-10, 1e-1 }, y = { 1e-6, 1e-6 } }
 end
-dotyk.chart{ file = "images/shape_derivatives.png", x = "h", panels = panels, columns = 2, size = { 2000, 1300 } }
+dotyk.chart{ file = "images/shape_derivatives.png", x = "step h of the differences", panels = panels, columns = 2, size = { 2000, 1300 } }
 
 -- 5. A kink: Newton's method for the fourth design variable, so that the last open node touches.
 local case <const> = cantilever()
@@ -188,8 +188,8 @@ end
 local pressures <const> = {}
 for k = weak, weak + 1 do
   local function of(d) return d:contact(case.contact)[k].pressure end
-  pressures[#pressures + 1] = curve(k == weak and "at the node that begins to touch" or "at the next node", -steps, steps, function(d) return of(d).value end)
-  pressures[#pressures + 1] = tangent(k > weak and "derivatives to each side" or nil, 1, of)
+  pressures[#pressures + 1] = curve(k == weak and "node that begins to touch" or "next node", -steps, steps, function(d) return of(d).value end)
+  pressures[#pressures + 1] = tangent(k > weak and "one-sided derivatives" or nil, 1, of)
   pressures[#pressures + 1] = tangent(nil, -1, of)
 end
 local function slope(side)
@@ -198,16 +198,11 @@ local function slope(side)
     return one_side[side].peak_pressure.gradient[1] / (side * case.beta[variable])
   end
 end
-local differences <const> = {}
-for k, s in ipairs(forth) do
-  back[k].twin, back[k].name = true, nil
-  differences[#differences + 1], differences[#differences + 2] = s, back[k]
-end
-differences[#differences + 1] = { name = "dashed: as the variable falls", reference = true, x = {}, y = {} } -- the legend alone
-dotyk.chart{ file = "images/shape_kink.png", size = { 1000, 1600 }, panels = {
+dotyk.chart{ file = "images/shape_kink.png", columns = 2, size = { 2100, 1500 }, panels = {
   { title = "A node begins to touch", x = "design variable", y = "pressure", series = pressures },
-  { x = "design variable", y = "derivative of the smoothed peak", series = { curve("the node touches", -steps, 0, slope(-1)), curve("it is open", 0, steps, slope(1)) } },
-  { title = "One-sided differences at the kink", x = "h", y = "relative error", log = "xy", series = differences } } }
+  { title = "Smoothed peak pressure", x = "design variable", y = "derivative", series = { curve("node touches", -steps, 0, slope(-1)), curve("node open", 0, steps, slope(1)) } },
+  { title = "Differences as the variable rises", x = "step h", y = "relative error", log = "xy", series = forth },
+  { title = "Differences as the variable falls", x = "step h", y = "relative error", log = "xy", series = back } } }
 
 -- 6. What is refused.
 print "\nRefused:"

@@ -229,5 +229,6 @@ print(("%d of %d problems were left unsolved: every cycle was noticed, and Lemke
 assert(unsolved == 0)
 
 dotyk.chart{ file = "images/cycles.png", x = "unknowns n", size = { 1000, 1000 }, panels = {
-  { title = "Problems that cycle, 95 % confidence", y = "of all [%]", series = series.often }, { y = "of all [%]", series = series.rarely } } }
+  { title = "Problems that cycle, 95 % confidence", y = "problems [%]", y_range = { -2, 41 }, series = series.often },
+  { y = "problems [%]", y_range = { -0.03, 0.63 }, series = series.rarely } } }
 print "images/cycles.png"

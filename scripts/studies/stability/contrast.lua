@@ -36,10 +36,10 @@ end
 local methods <const> = { "pdas", "active_set", "interior_point", "feti", "projected_cg", "psor", "uzawa" }
 local series, curves, wrong, most, same = {}, {}, 0, {}, {}
 for k, name in ipairs(methods) do
-  curves[name] = common.curve(name)
+  curves[name] = common.curve(common.method(name))
   series[k], most[name], same[name] = curves[name], 0, true
 end
-local refused = common.curve("not converged, as it says", { style = "points" })
+local refused = common.curve("not converged", { style = "points" })
 local function deviation(s, contacts, top, C) -- of pressures and of the top's displacement from the closed form
   local _, uy = s:displacement(top, 0, 3)
   local error = math.abs(-uy / (1 - nu^2) / (2 + 1 / C) - 1)
@@ -85,10 +85,10 @@ for _, sign in ipairs{ 1, -1 } do
   worst, least = math.max(worst, found / predicted, predicted / found), math.min(least, found)
   print(("C^%+d is solved up to C = %.1e; by the residual at 1e4 to 1e7, in proportion to C, %.1e"):format(sign, found, predicted))
 end
-series[#series + 1] = common.curve("granted: 0.1", { reference = true })
+series[#series + 1] = common.curve("allowed residual", { reference = true })
 for power = -16, 16, 32 do series[#series]:add(10.0^power, limit) end
-dotyk.chart{ file = "images/stability_contrast.png", log = "xy", x = "stiffness C of the block in the middle, over that of the others",
-             y = "relative error against the closed form", series = series, size = { 1100, 800 } }
+dotyk.chart{ file = "images/stability_contrast.png", log = "xy", x = "stiffness of the middle block / of the others",
+             y = "relative error", series = series, size = { 1100, 800 } }
 print "images/stability_contrast.png"
 common.verdict(wrong == 0 and worst < 4 and rows_error < 1e-11, ("a nearly rigid or nearly absent body is out of equilibrium by rounding times contrast: solved up to a tenth of it, at a contrast of %.0e (found within a factor of %.1f of the law); the forces of "
   .. "methods on contact rows are right to %.0e at every contrast up to 1e16, those on all displacements lose digits in proportion, and no state that is wrong by 1e-5 is called converged"):format(least, worst, rows_error))

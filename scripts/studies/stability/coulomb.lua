@@ -23,8 +23,8 @@ local panels <const> = {}
 print "   ν    n  contraction / μ  limit by it   found   off [%]   half-plane   Newton's iterations at most"
 for _, nu in ipairs{ 0, 0.3 } do
   local theory = 2 * (1 - nu) / (1 - 2 * nu)
-  local map <const> = common.map{ "converges", "does not" }
-  local law, half_plane = common.curve("limit by its contraction", { style = "points" }), common.curve(("half-plane: μ = %.4g"):format(theory), { reference = true })
+  local map <const> = common.map{ "converges", "does not converge" }
+  local law, half_plane = common.curve("limit by contraction", { style = "points" }), common.curve("half-plane", { reference = true })
   for n = 16, finest do
     if n & (n - 1) == 0 then
       local newton_here = 0
@@ -35,7 +35,7 @@ for _, nu in ipairs{ 0, 0.3 } do
         if t.converged then newton_here = math.max(newton_here, t.iterations) else newton_lost = newton_lost + 1 end
         if s.converged and (not t.converged or common.apart(s, t, contact) > 1e-6) then wrong = wrong + 1 end
         if t.converged and common.residual(t) > 1e-8 then wrong = wrong + 1 end
-        map:add(s.converged and "converges" or "does not", mu, n)
+        map:add(s.converged and "converges" or "does not converge", mu, n)
         return s
       end
       local constant = tonumber(loop(0.9 * theory).reason:match "multiplied by ([%d%.e+-]+) a step") / (0.9 * theory)
@@ -50,7 +50,7 @@ for _, nu in ipairs{ 0, 0.3 } do
   end
   local series = map:series()
   table.move({ law, half_plane }, 1, 2, #series + 1, series)
-  panels[#panels + 1] = { title = ("ν = %g"):format(nu), y = "cells along the block", log = "y", series = series }
+  panels[#panels + 1] = { title = ("ν = %g, half-plane: μ = %.4g"):format(nu, theory), y = "contact cells", log = "y", series = series }
 end
 dotyk.chart{ file = "images/stability_coulomb.png", x = "coefficient of friction μ", panels = panels, size = { 1000, 900 } }
 

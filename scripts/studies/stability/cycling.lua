@@ -54,7 +54,7 @@ for _, n in ipairs{ 3, 5, 7 } do -- P-matrices for every α ≥ 0, as n is odd
   for step = 0, 30 do curve:add(0.5 + 0.05 * step, 100 * share(n, 0.5 + 0.05 * step)) end
   cyclic[#cyclic + 1] = curve
 end
-cyclic[#cyclic + 1] = common.curve("theory: from α = 1 on", { reference = true })
+cyclic[#cyclic + 1] = common.curve("theory: α > 1", { reference = true })
 for _, percent in ipairs{ 0, 100 } do cyclic[#cyclic]:add(1, percent) end
 
 -- 2. Random symmetric matrices of a condition.
@@ -113,8 +113,8 @@ for _, n in ipairs{ 2, 3, 4, 6, 8, 12 } do
   series[#series + 1] = curve
 end
 dotyk.chart{ file = "images/stability_cycling.png", size = { 1000, 1200 }, panels = {
-  { title = "M = I + α (cyclic permutation)", x = "α", y = "starts that cycle [%]", series = cyclic },
-  { title = "M random, symmetric positive definite", log = "x", x = "condition of M", y = "problems whose active sets repeat [%]", series = series } } }
+  { title = "M = I + αP: starts that cycle", x = "factor α of the permutation P", y = "starts [%]", y_range = { -4, 104 }, series = cyclic },
+  { title = "Random M: active sets that repeat", log = "x", x = "condition number of M", y = "problems [%]", y_range = { -0.7, 15 }, series = series } } }
 
 -- 3. The strip, 8 long, held at its left end; the load in units of that which bends it by the space.
 local function strip(thick, load, phase)
@@ -130,7 +130,7 @@ local function strip(thick, load, phase)
   scene:contact{ body:part"bottom", rigid = dotyk.rigid.gap{ normal = {0, -1}, gap = function(x) return wave(x, 4) end } }
   return scene
 end
-local settles <const>, settled <const>, left <const>, lost <const> = "settles", "repeats, descent settles it", "repeats, another method settles it", "not converged"
+local settles <const>, settled <const>, left <const>, lost <const> = "settles", "settled by descent", "settled by another method", "not converged"
 local map <const>, repeats, given_up, helped, solves, apart = common.map{ settles, settled, left, lost }, 0, 0, 0, 0, 0
 local loads <const>, slenderest = math.max(5, trials // 20), math.huge
 for _, slender in ipairs{ 5, 7, 10, 14, 20, 28, 40, 57, 80, 113, 160 } do
@@ -152,7 +152,7 @@ for _, slender in ipairs{ 5, 7, 10, 14, 20, 28, 40, 57, 80, 113, 160 } do
 end
 print(("\nstrips: of %d, %d meet a set again, the stoutest of a length of %g thicknesses; descent settles %d of them, another method %d; not converged: %d"):format(
   solves, repeats, slenderest, repeats - helped - given_up, helped, given_up))
-dotyk.chart{ file = "images/stability_cycling_contact.png", log = "xy", x = "length over thickness of the strip", y = "load over that which bends it by the gap", map = map:cells() }
+dotyk.chart{ file = "images/stability_cycling_contact.png", log = "xy", x = "length / thickness of the strip", y = "load / load that closes the gap", map = map:cells() }
 print "images/stability_cycling.png, images/stability_cycling_contact.png"
 common.verdict(worst < 0.05 and mild == 0 and unsolved == 0 and wrong == 0 and given_up == 0 and apart < 1e-6, ("the cyclic matrices cycle from α = 1 on (found within %.0e), symmetric ones "
   .. "only with three unknowns or more and the oftener the worse the condition; every repeat was noticed, every complementarity problem "

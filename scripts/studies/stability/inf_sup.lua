@@ -28,7 +28,7 @@ local sizes, series, wrong, orders, limits = {}, {}, 0, {}, {}
 for n = 4, finest, 2 do sizes[#sizes + 1] = n end
 print "H/h    constant (kernel) for n = …"
 for _, width in ipairs{ 0.5, 1, 1.5, 2, 3 } do
-  local curve, line, h, values = common.curve(("H = %gh"):format(width)), ("%-5g"):format(width), {}, {}
+  local curve, line, h, values = common.curve(width == 1 and "H = h" or ("H = %gh"):format(width)), ("%-5g"):format(width), {}, {}
   for _, n in ipairs(sizes) do
     local r = constant(n, width)
     line = line .. ("  %d: %.4f (%d)"):format(n, r.constant, r.kernel)
@@ -50,7 +50,7 @@ end
 local law <const> = common.curve("theory: ~ h", { reference = true })
 for _, n in ipairs(sizes) do law:add(1 / n, series[1].y[1] * sizes[1] / n) end
 series[#series + 1] = law
-dotyk.chart{ file = "images/stability_inf_sup.png", log = "xy", x = "h", y = "inf-sup constant of friction", series = series }
+dotyk.chart{ file = "images/stability_inf_sup.png", log = "xy", x = "mesh size h (H: size of friction cells)", y = "inf-sup constant of friction", series = series }
 print "images/stability_inf_sup.png"
 common.verdict(wrong == 0 and math.abs(orders[1] - 1) < 0.1 and math.abs(limits[1]) < 0.05 and limits[2] > 0.5, ("on single triangles 2(n − 1)² multipliers go unnoticed, exactly as the theory counts; on squares "
   .. "(H = h) the constant falls like h^%.2f; from H = 2h, dotyk's default in space, it stays, at %.2f by extrapolation"):format(orders[1], limits[2]))

@@ -21,9 +21,9 @@ local function block(h, mu, t)
 end
 
 -- 1. The verdict.
-local map <const> = common.map{ "both blocks are carried", "the low block alone", "neither" }
+local map <const> = common.map{ "both carried", "low block alone", "neither" }
 local heights <const>, worst, series = { 1, 2 }, 0, {}
-local found = common.curve("boundary found", { style = "points" })
+local found = common.curve("boundary", { style = "points" })
 local function solvable(h, mu, t) return block(h, mu, t):balance().solvable end
 for _, h in ipairs(heights) do series[h] = common.curve(h == 1 and "height 1: min(μ, 1)" or "height 2: min(μ, ½)", { reference = true }) end
 for k = 1, 15 do
@@ -39,7 +39,7 @@ for k = 1, 15 do
     local t = twentieth / 20
     local low, high = solvable(1, mu, t), solvable(2, mu, t)
     assert(low or not high)
-    map:add(high and "both blocks are carried" or low and "the low block alone" or "neither", mu, t)
+    map:add(high and "both carried" or low and "low block alone" or "neither", mu, t)
   end
 end
 print(("verdicts: limit within %.1e of min(μ, 1/h)"):format(worst))

@@ -28,7 +28,7 @@ local function exponent(values, counts)
   return math.log(counts[k] / counts[k - 1]) / math.log(values[k] / values[k - 1])
 end
 local function map(name, values, of)
-  local curve <const> = common.curve(name)
+  local curve <const> = common.curve()
   local counts <const> = {}
   for k, value in ipairs(values) do
     counts[k] = of(value)
@@ -49,7 +49,8 @@ for _, case in ipairs{ { 0.3, 1 }, { 0.499, 1 }, { 0.3, 16 } } do
 end
 print(("The default method on %d³ cells: %s; nu = 0.499: %s; s = 16: %s."):format(n + n // 2, table.unpack(method)))
 
-dotyk.chart{ file = "images/stability_multigrid.png", title = "Where multigrid loses its speed", x = "height of the cells s, or 1/(1 − 2ν)",
-  y = "iterations a linear system", log = "xy", series = { stretched, locking }, slopes = { 1, 0.5 } }
+dotyk.chart{ file = "images/stability_multigrid.png", columns = 2, size = { 2100, 800 }, panels = {
+  { title = "Tall cells", x = "height / width of the cells", y = "iterations per linear system", log = "xy", series = { stretched }, slopes = { 1 } },
+  { title = "Nearly incompressible", x = "1/(1 − 2ν), ν Poisson's ratio", y = "iterations per linear system", log = "xy", series = { locking }, slopes = { 0.5 } } } }
 assert(n < 16 or math.abs(by_height - 1) < 0.25 and math.abs(by_ratio - 0.5) < 0.15, "not as theory says")
 print(("Iterations grow as s^%.2f (theory: 1) and as (1 − 2ν)^−%.2f (theory: 0.50)."):format(by_height, by_ratio))

@@ -22,10 +22,10 @@ local m <const> = math.max(4, n // 4)
 local coulomb <const>, given <const> = dotyk.friction.coulomb(0.3), dotyk.friction.tresca(2.5)
 local cases <const> = {
   { "PDAS", "pdas", dotyk.solver.active_set{}, punch },
-  { "PDAS, in space", "pdas", dotyk.solver.active_set{}, function() return scenes.cube(m) end },
-  { "Newton, given", "newton", dotyk.solver.projected_cg{}, function() return scenes.lifted(n, given) end },
-  { "Newton, Coulomb", "newton", dotyk.solver.coulomb_loop{}, function() return scenes.lifted(n, coulomb) end },
-  { "Newton, in space", "newton", dotyk.solver.psor{ omega = 1.2 }, function() return scenes.cube(m, coulomb) end },
+  { "PDAS, space", "pdas", dotyk.solver.active_set{}, function() return scenes.cube(m) end },
+  { "given", "newton", dotyk.solver.projected_cg{}, function() return scenes.lifted(n, given) end },
+  { "Coulomb", "newton", dotyk.solver.coulomb_loop{}, function() return scenes.lifted(n, coulomb) end },
+  { "Coulomb, space", "newton", dotyk.solver.psor{ omega = 1.2 }, function() return scenes.cube(m, coulomb) end },
 }
 
 -- By the method itself and its own test, not by one that it handed over to, nor by what judges any method's state.
@@ -64,7 +64,7 @@ for _, case in ipairs(cases) do
   series[#series + 1] = curve
   if #missed > 0 then series[#series + 1] = { x = missed, twin = true, crossed = true, style = "points" } end
 end
-dotyk.chart{ file = "images/stability_rho.png", log = "xy", x = "ρ / stiffness of a contact row", y = "iterations", series = series }
+dotyk.chart{ file = "images/stability_rho.png", title = "PDAS, and Newton with friction", log = "xy", x = "ρ / stiffness of a contact row", y = "iterations", series = series }
 
 -- 2. Both ends, Coulomb friction in the plane.
 local scene <const>, contact <const> = scenes.lifted(n, coulomb)

@@ -27,8 +27,8 @@ local function bodies(a)
   return scene, scene:contact{ upper:part"bottom", lower:part"top" }
 end
 
-local regularity, apart_curve = common.curve "found", common.curve "screws against the exact kernel"
-local proportion <const> = common.curve("theory: in proportion to a", { reference = true })
+local regularity, apart_curve = common.curve "found", common.curve()
+local proportion <const> = common.curve("proportional to a", { reference = true })
 local x, y, wrong, worst, refused, gave_up = {}, {}, 0, 0, {}, 0
 print "      a   kernel  screws  regularity   forces apart   ends"
 for half = 0, 32 do
@@ -64,8 +64,8 @@ end
 local slope <const> = fit.order(x, y)
 for k = 1, #x do proportion:add(x[k], y[1] * x[k] / x[1]) end
 dotyk.chart{ file = "images/stability_screws.png", x = "slope a of the groove", size = { 1000, 1000 }, panels = {
-  { y = "regularity of the screws", log = "xy", series = { regularity, proportion } },
-  { y = "forces: relative difference", log = "xy", series = { apart_curve }, y_range = { 1e-16, 1e-10 } } } }
+  { y = "regularity", log = "xy", series = { regularity, proportion } },
+  { y = "difference of forces", log = "xy", series = { apart_curve }, y_range = { 1e-16, 1e-10 } } } }
 print "images/stability_screws.png"
 common.verdict(math.abs(slope - 1) < 0.05 and worst < 1e-10 and wrong == 0 and #refused <= 4 and gave_up <= 2, ("the screws' regularity falls in proportion to the groove (exponent %.3f), and the forces stay "
   .. "those of the exact kernel to %.0e; at a = %.0e … %.0e dotyk refuses to place three screws, and from there on takes two and a linear condition, unique up to the sliding"):format(
