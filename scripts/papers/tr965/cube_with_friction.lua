@@ -103,7 +103,7 @@ for power = 2, 6 do
 end
 
 print(shown:render{ file = "images/papers_cube_with_friction.png", field = "von_mises", supports = true, loads = true,
-  title = ("Given friction, n = %d"):format(finest) })
+  size = { 1200, 1000 }, title = ("Given friction, n = %d"):format(finest) })
 common.verdict(off < 1e-6 and apart < 1e-6 and math.abs(scaled[6] / scaled[5] - 1) < 0.02, (
   "balance() finds the limits of rigid statics to %.0e; the %d loads below them are solved by all three methods, Newton's "
   .. "in at most %d iterations, with the same displacements and friction to %.0e; the %d loads beyond them are refused"):format(

@@ -82,12 +82,12 @@ private:
     for (const std::string& name : picture_.categories) out.ticks.push_back({static_cast<double>(out.ticks.size() + 1), name});
     if (!out.ticks.empty() || picture_.polar) return out;
     if (picture_.map && !x.log && !map_ticks(picture_.map->x).ticks.empty()) return map_ticks(picture_.map->x);
-    const double labels = std::max(3.0, room_.width() > 1 ? room_.width() / (4.5 * em_) : 6);
-    return x.log ? log_ticks(x.low, x.high, static_cast<int>(labels) + 1) : linear_ticks(x.low, x.high, std::min(8, static_cast<int>(labels)));
+    const double width = room_.width() > 1 ? room_.width() : 27 * em_;
+    return x.log ? log_ticks(x.low, x.high, static_cast<int>(std::max(3.0, width / (3.6 * em_))) + 1) : spaced_ticks({false, x.low, x.high, 0, width}, em_);
   }
 
   Ticks y_ticks(const Axis& y) const {
-    const double labels = std::max(3.0, room_.height() > 1 ? room_.height() / (3.2 * em_) : 6);
+    const double labels = std::max(3.0, room_.height() > 1 ? room_.height() / (2.6 * em_) : 6);
     if (picture_.polar) return {};
     if (picture_.map && !y.log && !map_ticks(picture_.map->y).ticks.empty()) return map_ticks(picture_.map->y);
     if (y.left_out) return broken_ticks(y, std::min(8.0, labels));
@@ -252,7 +252,7 @@ private:
   double within(const FittedText& text, bool bold = false) const {
     double half = 0;
     for (const std::string& line : text.lines) half = std::max(half, text_extent(line, text.size, bold).x / 2);
-    half += text.lines.size() > 1 ? 0.5 * em_ : 2;  // off the edge
+    half += 0.5 * em_;  // off the edge
     return std::clamp(room_.centre().x, half, std::max(half, picture_.width - half));
   }
 
