@@ -45,9 +45,9 @@ struct FittedText {
   double depth() const;  // from the first line to the last
 };
 
-// In one line of letters down to least_letters of `size`; else in two lines of these, of about the same width, or three, broken between
-// words, the last shortened where that does not suffice either. Bold ones, which are titles, in letters as great as their lines allow.
-// `end` stays whatever is left out before it.
+// Breaks a text between words so that no line is wider than `pixels`. It stays in one line if letters of least_letters × `size` make it
+// fit; else it has two lines of about the same width, or three. If three do not suffice, the last is shortened, but keeps `end`. Bold
+// texts, which are titles, get the greatest letters up to `size` with which their lines fit.
 FittedText fitted(const std::string& text, double size, double pixels, bool bold = false, const std::string& end = "");
 
 enum class Marker { disc, square, triangle, diamond, down_triangle, plus, cross, ring };

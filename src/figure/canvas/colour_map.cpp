@@ -159,6 +159,12 @@ double colour_bar_width(const ColourScale& scale, const FieldLabel& field, doubl
   return std::max({beside, above("max", scale.greatest), above("min", scale.least), longest_word(label(field, ticks.exponent), least_letters * em)});
 }
 
+double least_bar_height(const ColourScale& scale, const FieldLabel& field, double em, double width) {
+  constexpr double kBox = 3;  // room for three numbers
+  const int tips = (scale.least < scale.low) + (scale.greatest > scale.high);
+  return (kBox + tip * tips + 2 * (ends + 1.0) + 1.3) * em + fitted(label(field, bar_ticks(scale).exponent), em, width).depth();
+}
+
 void draw_colour_bar(Canvas& canvas, const ColourScale& scale, const FieldLabel& field, double em, const Box& room) {
   const double left = room.left, bottom = room.bottom;
   double top = room.top;

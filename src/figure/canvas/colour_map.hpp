@@ -37,6 +37,8 @@ inline FieldLabel field_of(const ScenePicture& picture) { return {picture.field_
 
 // The upright bar with ticks, extremes and label, and a triangle on an end beyond which the field goes on: its width, and its drawing
 // at the left of a room.
+// The least height, where a name that does not stand upright is broken at so many pixels.
+double least_bar_height(const ColourScale& scale, const FieldLabel& field, double em, double width);
 double colour_bar_width(const ColourScale& scale, const FieldLabel& field, double em);
 void draw_colour_bar(Canvas& canvas, const ColourScale& scale, const FieldLabel& field, double em, const Box& room);
 

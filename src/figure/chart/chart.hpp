@@ -17,8 +17,8 @@ struct ChartAxes {
   const Axes& of(const SeriesPicture& s) const { return s.right ? right : left; }
 };
 
-// Points in numbers, in pieces between those that the axes cannot show; the same as curves in pixels, which bend at a break of the
-// axis and between angles.
+// The points of a series, in pieces: a point that the axes cannot show ends one. runs() gives their values, curves() their pixels, with
+// further points where straight lines become bent: at a break of the axis, and between angles.
 std::vector<std::vector<Point>> runs(const std::vector<double>& x, const std::vector<double>& y, const Axes& axes);
 std::vector<std::vector<Point>> curves(const std::vector<double>& x, const std::vector<double>& y, const Axes& axes);
 

@@ -126,7 +126,7 @@ private:
     room_ = {room_.left + indent_, room_.bottom, room_.right - indent_, room_.bottom + side};
   }
 
-  // Both parts of a broken axis have one scale, unless one would be very low.
+  // The parts of a broken axis below and above its break have the same scale, unless one of them would then be very low.
   void share_height(Axis& y) const {
     constexpr double kLeast = 0.2;
     AxisBreak& b = *y.left_out;

@@ -112,7 +112,7 @@ std::vector<Point> SeriesDrawing::marked(const SeriesPicture& s) const {
   return out;
 }
 
-// Of points alone one that lies beneath later ones is larger; of curves the lines tell.
+// In series without lines a marker that lies beneath later ones is larger. Of curves draw_lines() shows what is beneath.
 void SeriesDrawing::draw_markers() {
   constexpr std::ptrdiff_t kDeepest = 3;
   const double near = 0.75 * pen_.line_width(), rim = 0.1 * pen_.em;

@@ -7,7 +7,7 @@
 
 namespace dotyk::figure {
 
-// The places of a room that lie within so many pixels of curves, or of points.
+// Tells whether a place in a room lies near some curve or point: within `reach` pixels.
 class Neighbourhood {
 public:
   Neighbourhood(const Box& room, double reach);

@@ -40,11 +40,7 @@ const SceneValue& field_of(FieldChoice choice) {
   return fields[static_cast<int>(choice)];
 }
 
-// As scripts call it.
-const char* key_of(FieldChoice choice) {
-  static const char* keys[] = {"none", "displacement", "ux", "uy", "uz", "von_mises", "xx", "yy", "zz", "yz", "xz", "xy", "error", "pressure", "gap", "slip", "status"};
-  return keys[static_cast<int>(choice)];
-}
+const char* key_of(FieldChoice choice) { return field_names()[static_cast<std::size_t>(choice)].first; }
 
 bool is_stress(FieldChoice field) { return field >= FieldChoice::von_mises && field <= FieldChoice::xy; }
 bool of_contacts(FieldChoice field) { return field >= FieldChoice::pressure; }
@@ -192,6 +188,15 @@ CellShape cell_shape(const mesh::Mesh& mesh) {
   return t.facets == 4 ? CellShape::tetrahedron : CellShape::hexahedron;
 }
 
+const std::vector<std::pair<const char*, FieldChoice>>& field_names() {
+  using F = FieldChoice;
+  static const std::vector<std::pair<const char*, F>> names{
+      {"none", F::none}, {"displacement", F::displacement}, {"ux", F::ux}, {"uy", F::uy}, {"uz", F::uz}, {"von_mises", F::von_mises},
+      {"xx", F::xx}, {"yy", F::yy}, {"zz", F::zz}, {"yz", F::yz}, {"xz", F::xz}, {"xy", F::xy},
+      {"error", F::error}, {"pressure", F::pressure}, {"gap", F::gap}, {"slip", F::slip}, {"status", F::status}};
+  return names;
+}
+
 double visible_deformation(const Solution& s) {
   double largest = 0;
   for (std::size_t b = 0; b < s.scene().bodies.size(); ++b)
@@ -228,7 +233,7 @@ void move(std::vector<double>& points, const Vec3& by) {
   for (std::size_t i = 0; i < points.size(); ++i) points[i] += by[i % 3];
 }
 
-/// The surface of a contact goes with that of its bodies on which it is seen: its normal points away from the first one.
+/// In an exploded view the surface of a contact moves with the body on which it can be seen from above. Its normal points out of the first one.
 void move_contact(ContactPicture& contact, const Vec3& first, const Vec3& second) {
   Vec3 mean{0, 0, 0};
   for (const ContactNode& node : contact.nodes) mean = plus(mean, node.normal, node.weight);
@@ -241,18 +246,13 @@ void move_contact(ContactPicture& contact, const Vec3& first, const Vec3& second
   }
 }
 
-void show_field(ContactPicture& contact, FieldChoice field) {
-  if (field == FieldChoice::status || !of_contacts(field)) return;
-  for (const ContactNode& node : contact.nodes) contact.values.push_back(field == FieldChoice::pressure ? node.pressure : field == FieldChoice::gap ? node.gap : node.slip);
-}
-
 void add_contacts(const Solution& s, const SceneOptions& options, const std::vector<Vec3>& moves, ScenePicture& picture) {
   const double size = scene_size(s);
   for (const auto& contact : s.scene().contacts) {
     if (contact->kind != Contact::Kind::contact) continue;
     const scene::ContactResult result = s.contact(*contact);
     ContactPicture& shown = picture.contacts.emplace_back(contact_picture(*contact, result));
-    show_field(shown, options.field);
+    if (of_contacts(options.field)) shown.values = field_values(shown, map_field(options.field));
     const Vec3& first = moves[s.scene().index_of(contact->first.body.get())];
     if (options.explode > 0) move_contact(shown, first, contact->second.body ? moves[s.scene().index_of(contact->second.body.get())] : first);
     if (!contact->second.body && options.obstacle) {
@@ -272,7 +272,7 @@ ScenePicture compose(const Solution& s, const SceneOptions& options) {
   ScenePicture picture;
   picture.caption = solver::doubt(s.result());
   picture.field_label = field_of(options.field).label;
-  picture.field_signed = options.field == FieldChoice::gap || (options.field != FieldChoice::displacement && options.field != FieldChoice::von_mises && options.field < FieldChoice::error);
+  picture.field_signed = options.field != FieldChoice::displacement && options.field != FieldChoice::von_mises && options.field < FieldChoice::error;
   picture.deformation = options.deform.value_or(visible_deformation(s));
   picture.trajectories = options.trajectories;
   const std::vector<Vec3> moves = explosion(s, options.explode);
@@ -294,6 +294,7 @@ ScenePicture compose_map(const Solution& s, const Contact& contact, FieldChoice 
   if (s.scene().dimension() == 2) throw InputError("'map' is for contacts in space; this scene is 2-D");
   if (contact.kind != Contact::Kind::contact) throw InputError("'map' is for contacts; this is a glue");
   ScenePicture picture = contact_map(contact_picture(contact, s.contact(contact)), map_field(field));
+  picture.field_label = field_of(field).label;
   picture.caption = solver::doubt(s.result());
   return picture;
 }

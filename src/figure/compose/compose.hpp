@@ -12,6 +12,9 @@ namespace dotyk::figure {
 // The last four are of contacts, on their surfaces in space and on maps.
 enum class FieldChoice { none, displacement, ux, uy, uz, von_mises, xx, yy, zz, yz, xz, xy, error, pressure, gap, slip, status };
 
+// As scripts call them, in the order of the choices.
+const std::vector<std::pair<const char*, FieldChoice>>& field_names();
+
 struct SceneOptions {
   FieldChoice field = FieldChoice::von_mises;
   std::optional<double> deform;  // factor; empty: chosen so that the deformation can be seen

@@ -88,7 +88,7 @@ Label force_label(const Stage& stage, const Plate& plate, const PlateForce& f) {
   return label;
 }
 
-// Forces that differ by less than a twentieth are told once: their sizes are those of their dots.
+// Of forces that differ by less than 5 % only the first has a label; the sizes of dots tell the others.
 std::vector<Label> labels(const Stage& stage, const Plate& plate) {
   std::vector<Label> out;
   std::vector<double> told;

@@ -3,8 +3,8 @@
 #include <map>
 #include <numbers>
 #include <numeric>
-#include <stdexcept>
 
+#include "base/error.hpp"
 #include "figure/canvas/geometry.hpp"
 
 namespace dotyk::figure {
@@ -166,9 +166,17 @@ std::optional<Flat> unrolled(const ContactPicture& contact, const Vec3& lines) {
   return flat;
 }
 
-Flat flattened(const ContactPicture& contact) {
+// Seen along the mean normal a surface that turns away from the eye would lie upon itself.
+bool turns_away(const ContactPicture& contact) {
+  constexpr double kBehind = -0.2;
+  const Vec3 mean = mean_normal(contact, false);
+  return std::ranges::any_of(contact.nodes, [&](const ContactNode& node) { return dot(unit(node.normal), mean) < kBehind; });
+}
+
+std::optional<Flat> flattened(const ContactPicture& contact) {
   if (const std::optional<Vec3> lines = direction_of_lines(contact))
-    if (std::optional<Flat> flat = unrolled(contact, *lines)) return std::move(*flat);
+    if (std::optional<Flat> flat = unrolled(contact, *lines)) return flat;
+  if (turns_away(contact)) return std::nullopt;
   return seen_along(contact, mean_normal(contact, false));
 }
 
@@ -197,32 +205,33 @@ void close(Flat& flat, ContactPicture& contact) {
   }
 }
 
-std::pair<const char*, double ContactNode::*> value_of(MapField field) {
-  switch (field) {
-    case MapField::pressure: return {"contact pressure", &ContactNode::pressure};
-    case MapField::gap: return {"gap", &ContactNode::gap};
-    case MapField::slip: return {"slip", &ContactNode::slip};
-    default: return {"", nullptr};
-  }
-}
-
 }  // namespace
 
+std::vector<double> field_values(const ContactPicture& contact, MapField field) {
+  std::vector<double> out;
+  if (field == MapField::status) return out;
+  for (const ContactNode& node : contact.nodes)
+    out.push_back(field == MapField::pressure ? node.pressure : field == MapField::gap ? node.gap : node.status == Status::open ? NAN : node.slip);
+  return out;
+}
+
+bool has_map(const ContactPicture& contact) { return !contact.facets.empty() && contact.nodes_per_facet > 2 && flattened(contact); }
+
 ScenePicture contact_map(const ContactPicture& given, MapField field) {
-  if (given.facets.empty() || given.nodes_per_facet < 3) throw std::runtime_error("contact \"" + given.name + "\" has no surface that a map could show");
+  if (given.facets.empty() || given.nodes_per_facet < 3) throw InputError("contact \"" + given.name + "\" has no surface that a map could show");
+  std::optional<Flat> found = flattened(given);
+  if (!found) throw InputError("contact \"" + given.name + "\" is closed and not a cylinder: a map of it would lie upon itself; make contacts of its sides");
+  Flat& flat = *found;
   ScenePicture map;
   ContactPicture& contact = map.contacts.emplace_back(given);
-  Flat flat = flattened(given);
   close(flat, contact);
   BodyPicture& body = map.bodies.emplace_back();
   body.name = contact.name;
   body.shape = contact.nodes_per_facet == 3 ? CellShape::triangle : CellShape::quad;
-  const auto [label, value] = value_of(field);
-  map.field_label = label;
-  if (value) body.cells = contact.facets;
+  body.values = field_values(contact, field);
+  if (!body.values.empty()) body.cells = contact.facets;
   for (std::size_t i = 0; i < contact.nodes.size(); ++i) {
     ContactNode& node = contact.nodes[i];
-    if (value) body.values.push_back(field == MapField::slip && node.status == Status::open ? NAN : node.*value);  // what is open does not slip
     node.shear = {dot(node.shear, flat.across[i]), dot(node.shear, flat.up[i]), 0};
     node.position = {flat.at[i].x, flat.at[i].y, 0}, node.displacement = {0, 0, 0}, node.normal = {0, 0, 1};
     body.points.insert(body.points.end(), node.position.begin(), node.position.end());

@@ -103,14 +103,14 @@ void add_contact_surface(const Stage& stage, const ContactPicture& contact, vtkR
 
 namespace {
 
-constexpr double inset_share = 0.36, inset_em = 14, inset_height = 0.62;  // of the picture's width, letters, of its height
+constexpr double inset_share = 0.36, inset_em = 14, inset_height = 12;  // its width in shares of the picture's, and in em; its height in em
 
-// The contact that carries most, of those that have facets; of equals (but for rounding) the first.
+// The contact that carries most, of those that have a map; of equals (but for rounding) the first.
 const ContactPicture* inset_contact(const ScenePicture& picture) {
   const ContactPicture* best = nullptr;
   double most = 0;
   for (const ContactPicture& contact : picture.contacts) {
-    if (contact.nodes_per_facet < 3 || contact.facets.empty()) continue;
+    if (!has_map(contact)) continue;
     double peak = 0;
     for (const ContactNode& node : contact.nodes) peak = std::max(peak, node.pressure);
     if (!best || peak > (1 + 1e-6) * most) most = peak, best = &contact;
@@ -130,12 +130,12 @@ std::optional<ScenePicture> inset_of(const ScenePicture& picture) {
   map.printed = printed_width(picture) * map.width / picture.width;
   map.length_unit = picture.length_unit;
   map.pressure = picture.pressure, map.shear = picture.shear;
-  map.height = static_cast<int>(inset_height * picture.height);
+  map.height = static_cast<int>(inset_height * em);
   // As high as it needs: what it leaves free, or lacks, is known once it is laid out.
   for (int round = 0; round < 2; ++round) {
     Stage tried(map);
     tried.own_legend = false;
-    map.height = std::clamp(map.height + static_cast<int>(std::ceil(lay_out(tried))), least_side, static_cast<int>(inset_height * picture.height));
+    map.height = std::clamp(map.height + static_cast<int>(std::ceil(lay_out(tried))), least_side, static_cast<int>(inset_height * em));
   }
   return map;
 }

@@ -6,7 +6,6 @@ namespace dotyk::figure {
 
 namespace {
 
-
 void draw_notes(Stage& stage, vtkRenderer*) {
   const double em = stage.em, size = 0.9 * em;
   for (const auto& [x0, y0, x1, y1] : stage.picture.marked) {

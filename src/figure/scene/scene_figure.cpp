@@ -132,11 +132,12 @@ std::vector<Painted> painted(Stage& stage) {
 
 void draw_scene(const ScenePicture& picture, const std::function<void(Stage&)>& prepare) {
   ScenePicture grown = picture;
-  for (const bool last : {false, true}) {
+  constexpr int kRounds = 4;  // the column beside the scene depends on the height
+  for (int round = 1;; ++round) {
     Stage stage(grown);
     if (prepare) prepare(stage);
     const double missing = lay_out(stage);
-    if (last || !(missing > 1)) return write_picture(grown, painted(stage));
+    if (round == kRounds || !(missing > 1)) return write_picture(grown, painted(stage));
     grown.height = std::min(std::max(grown.height, greatest_side), grown.height + static_cast<int>(std::ceil(missing)));
   }
 }

@@ -4,6 +4,8 @@
 #include <map>
 #include <numeric>
 
+#include "base/error.hpp"
+#include "base/text.hpp"
 #include "figure/canvas/sheet.hpp"
 #include "figure/door/drawing.hpp"
 #include "figure/scene/stage.hpp"
@@ -32,16 +34,14 @@ std::optional<ColourScale> common_scale(const std::vector<ScenePicture>& panels)
   return several > 1 ? common : std::nullopt;
 }
 
-// Ordinates and arrows of the same length stand for the same; in a window they are scaled to what is seen of it.
+// Ordinates and arrows of the same length stand for the same in all panels.
 void share_lengths(std::vector<ScenePicture>& panels) {
   std::array<double, 3> longest{};
   for (const ScenePicture& p : panels) {
-    if (p.window) continue;
     const Stage stage(p);
     longest = {std::max(longest[0], stage.greatest_pressure), std::max(longest[1], stage.greatest_shear), std::max(longest[2], stage.greatest_load)};
   }
-  for (ScenePicture& p : panels)
-    if (!p.window) p.longest = longest;
+  for (ScenePicture& p : panels) p.longest = longest;
 }
 
 class Rows {
@@ -58,8 +58,10 @@ public:
     for (int round = 0; round < 4; ++round) {
       const std::vector<double> missing = lay_out_panels();
       for (std::size_t r = 0; r < rows(); ++r) heights_[r] = std::max(least_plot(sheet_), heights_[r] + missing[r]);
-      sheet_.height = std::min(greatest_side, static_cast<int>(std::ceil(above_ + std::accumulate(heights_.begin(), heights_.end(), 0.0) + legend_.height())));
+      sheet_.height = static_cast<int>(std::ceil(above_ + std::accumulate(heights_.begin(), heights_.end(), 0.0) + legend_.height()));
     }
+    if (sheet_.height > greatest_side)
+      throw InputError(text("the pictures of ", sheet_.file, " need ", sheet_.height, " pixels of height in ", rows(), " rows, at most ", greatest_side, " are possible; give more 'columns'"));
     lay_out_panels();
   }
 
@@ -89,6 +91,7 @@ private:
   std::vector<double> lay_out_panels() {
     const double bar = scale_ ? bar_width() + 0.8 * em_ : 0, spacing = gap * em_;
     const double wide = (sheet_.width - bar - spacing * static_cast<double>(columns_ - 1)) / static_cast<double>(columns_);
+    if (wide < least_side) throw InputError(text("the pictures of ", sheet_.file, " are ", std::floor(wide), " pixels wide in ", columns_, " columns, they need ", least_side, "; give fewer 'columns' or a greater 'size'"));
     stages_.clear();
     std::vector<double> missing(rows(), -1e300);
     std::vector<Named> entries;
@@ -123,7 +126,7 @@ private:
     else same->samples.emplace(kind, entry.sample);
   }
 
-  // A status looks otherwise on each kind: all its samples side by side.
+  // A status is drawn differently in space, in the plane and on maps: shows all its samples side by side.
   static LegendEntry joined(Named named) {
     const auto is_status = [&](Status s) { return named.entry.name == status_name(s); };
     if (named.samples.size() < 2 || std::ranges::none_of(std::array{Status::open, Status::closed, Status::stick, Status::slip}, is_status)) return named.entry;

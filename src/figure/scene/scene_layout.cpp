@@ -248,10 +248,9 @@ Box room_left(const Stage& stage, const Surroundings& around, bool placed) {
 }
 
 // Places the scene: what stands around it depends on the place, and the place on that.
-Surroundings place_scene(Stage& stage, bool beside) {
+Surroundings place_scene(Stage& stage, const Bounds& scaled, bool beside) {
   const ScenePicture& p = stage.picture;
   const double em = stage.em;
-  const Bounds scaled = scaled_bounds(stage);
   Surroundings around{0, 0, p.caption.empty() ? 0 : 1.5 * em + caption_of(p, em).depth(), Legend({}, em), beside, {}};
   stage.frame = {0, 0, 1.0 * p.width, 1.0 * p.height};
   stage.crowded = false;
@@ -269,11 +268,9 @@ Surroundings place_scene(Stage& stage, bool beside) {
   return around;
 }
 
-constexpr double bar_height = 9;  // em, with its name and ends
-
 // What stands in the column, one above the other.
 double column_height(const Stage& stage, const Surroundings& around) {
-  return (around.bar > 0 ? bar_height * stage.em : 0) + (stage.inset ? stage.inset->height : 0) + (around.beside ? around.legend.height() : 0);
+  return (around.bar > 0 ? least_bar_height(stage.scale, field_of(stage.picture), stage.em, around.column) : 0) + (stage.inset ? stage.inset->height : 0) + (around.beside ? around.legend.height() : 0);
 }
 
 // The room of the column, which goes down beside the axis.
@@ -284,13 +281,14 @@ double room_of_column(const Stage& stage, const Surroundings& around) {
 // The legend stands beside a scene that is larger by that.
 Surroundings place_scene(Stage& stage) {
   constexpr double kLarger = 1.1, kWidest = 0.45;
-  const Surroundings below = place_scene(stage, false);
+  const Bounds scaled = scaled_bounds(stage);
+  const Surroundings below = place_scene(stage, scaled, false);
   const double scale = stage.view.scale;
   if (!stage.own_legend || stage.entries.empty()) return below;
-  const Surroundings beside = place_scene(stage, true);
+  const Surroundings beside = place_scene(stage, scaled, true);
   const bool fits = beside.column < kWidest * stage.picture.width && column_height(stage, beside) < room_of_column(stage, beside);
   if (fits && stage.view.scale > kLarger * scale) return beside;
-  return place_scene(stage, false);
+  return place_scene(stage, scaled, false);
 }
 
 // The bar as high as the scene, within reason, and not too far from it; above the inset where there is one.

@@ -65,7 +65,7 @@ void read_notes(const Arguments& call, ScenePicture& picture) {
   }
 }
 
-// What a call of solution:render or solution:picture shows. `beside`: alone on its sheet, where a map of a contact may stand beside a scene in space.
+// What a call of solution:render or solution:picture shows. `alone`: it has a sheet of its own, on which a map of a contact may stand beside a scene in space.
 ScenePicture picture_of(Call& call, bool alone) {
   const auto s = call.self<Solution>();
   const SceneOptions options = scene_options(call, s->scene().dimension());
@@ -77,7 +77,7 @@ ScenePicture picture_of(Call& call, bool alone) {
   figure::SceneUnits units;
   if (call.has("units")) units = call.table("units").filled<figure::SceneUnits>();
   figure::name_units(picture, field, units);
-  picture.inset = alone && options.explode == 0 && picture.bodies.size() > 0;
+  picture.inset = alone && options.explode == 0;
   call.fill(picture);
   if (call.has("unit")) {
     picture.field_unit = call.text("unit");
@@ -137,15 +137,11 @@ std::string draw_pictures(Call& call) {
 
 // Of solution:render and solution:picture.
 std::vector<Key> picture_keys() {
-  using Field = FieldChoice;
   using Options = SceneOptions;
   using Picture = ScenePicture;
   using Units = figure::SceneUnits;
   return {
-      key::choice<Field>("field", {{"none", Field::none}, {"displacement", Field::displacement}, {"ux", Field::ux}, {"uy", Field::uy}, {"uz", Field::uz},
-                                   {"von_mises", Field::von_mises}, {"xx", Field::xx}, {"yy", Field::yy}, {"zz", Field::zz}, {"yz", Field::yz},
-                                   {"xz", Field::xz}, {"xy", Field::xy}, {"error", Field::error}, {"pressure", Field::pressure}, {"gap", Field::gap},
-                                   {"slip", Field::slip}, {"status", Field::status}},
+      key::choice<FieldChoice>("field", figure::field_names(),
                          "what the colours show. error: each cell's share of solution:error_estimate, the square root. pressure, gap, slip, status: on the "
                          "surfaces of contacts in space, and on a map").into(&Options::field),
       key::object<scene::Contact>("map", "of a contact in space: its surface flat, unrolled, or seen along its mean normal, in place of the scene, with one of "
