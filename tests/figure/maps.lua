@@ -177,6 +177,22 @@ local level <const> = dotyk.scene{ flat }
 local line <const> = level:contact{ flat:part(bottom), rigid = dotyk.rigid.plane{ point = { 0, 0 }, normal = { 0, 1 } } }
 local lid <const> = body({ 2, -1, 1 }, { 5, 0, 2 }, { 3, 1, 1 })
 local glued <const> = dotyk.scene{ slab, lid }:glue{ lid:part(bottom), slab:part "top" }
+local alone <const> = dotyk.scene{ lid }
+lid:part "left":fix()
+-- A ball in a ball with a cavity: closed, and no cylinder.
+local function onto_spheres(x, y, z)
+  local p <const> = math.max(math.abs(x), math.abs(y), math.abs(z)) / math.max(math.sqrt(x^2 + y^2 + z^2), 1e-12)
+  return p * x, p * y, p * z
+end
+local ball <const>, shell <const> = body({ -1, -1, -1 }, { 1, 1, 1 }, { 2, 2, 2 }, onto_spheres),
+  body({ -2, -2, -2 }, { 2, 2, 2 }, { 4, 4, 4 }, onto_spheres, function(x, y, z) return math.max(math.abs(x), math.abs(y), math.abs(z)) > 1 end)
+local whole <const> = ball:part("whole", function() return true end)
+whole:pressure(1)
+shell:part("outside", function(x, y, z) return x^2 + y^2 + z^2 > 3 end):fix()
+local round_scene <const> = dotyk.scene{ ball, shell }
+local round_all <const> = round_scene:contact{ whole, shell:part "hole", friction = rough }
+local many <const> = {}
+for k = 1, 300 do many[k] = { at = { 0.5, 0.5 }, text = "a note of some length" } end
 local note <const>, two <const>, three <const> = { { at = { 0, 0, 0 }, text = "here" } }, solved(level), slid
 for _, case in ipairs{
   { two, { map = line }, "'map' is for contacts in space", "2-D" }, { three, { map = glued }, "'map' is for contacts", "glue" },
@@ -186,11 +202,15 @@ for _, case in ipairs{
   { three, { window = { 0, 0, 1, 1 } }, "window has 4 numbers", "{x0, y0, z0, x1, y1, z1}" },
   { three, { map = floor, view = { 1, 0, 0 } }, "'view' is for scenes in space", "2-D" }, { three, { zoom = { 0, 0, 1, 1 } }, "'zoom' is for the plane and for maps", "in space" },
   { two, { zoom = { 0, 0, 1, 1 }, window = { 0, 0, 1, 1 } }, "'zoom' and 'window' are given" }, { three, { isolines = true }, "'isolines' are for the plane and for maps", "in space" },
-  { three, { trajectories = true }, "'trajectories' is for scenes in the plane", "in space" }, { three, { explode = -1 }, "explode is -1", "zero or positive" },
+  { three, { trajectories = true }, "'trajectories' is for scenes in the plane", "in space" }, { three, { explode = -1 }, "explode is -1", "from 0 to 100" }, { three, { explode = 1e9 }, "from 0 to 100" },
   { two, { notes = note }, "'at' of a note has 3 numbers", "2-D" }, { three, { map = floor, notes = note }, "'at' of a note has 3 numbers", "2-D" },
   { three, { notes = { { at = { 0, 0 }, text = "here" } } }, "'at' of a note has 2 numbers", "3-D" }, { two, { field = "error" }, "'flat' is of P2", "cells of order 1" },
   { three, { map = floor, field = "von_mises" }, '"pressure", "gap", "slip" or "status"', "von_mises" }, { two, { field = "gap" }, "for scenes in space", "2-D", "gap" },
-  { two, { zoom = { 1, 1, 0, 0 } }, "zoom", "{x0, y0, x1, y1}" } } do
+  { two, { zoom = { 1, 1, 0, 0 } }, "zoom", "{x0, y0, x1, y1}" }, { two, { range = { 1, 1 } }, "range of the field", "{least, greatest}" },
+  { three, { cut = { point = { 0, 0, 1.5 }, normal = { 1e-200, 0, 0 } } }, "'cut' leaves nothing of the bodies", "lie within {" },
+  { three, { window = { 9, 0, 0, 10, 1, 1 } }, "window shows no body", "lie within {" }, { three, { field = "gap", contact = false }, '"gap" is one of contacts', "'contact' false" },
+  { solved(alone), { field = "slip" }, '"slip" is one of contacts', "this scene has none" }, { solved(round_scene), { map = round_all }, "closed and not a cylinder" },
+  { two, { width = 30 }, "refused.svg is 30 mm wide", "mm wide at least" }, { two, { notes = many }, "no room for the note" } } do
   case[2].file = "refused.svg"
   refused(function() case[1]:render(case[2]) end, "render: ", table.unpack(case, 3))
 end

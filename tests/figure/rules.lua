@@ -109,10 +109,23 @@ end
 local states <const>, fills <const> = drawn(solid, { map = surface, field = "status", shear = false }), {}
 for _, m in ipairs(states.marks) do if m.kind == "polygon" and #m == 4 and m.fill ~= "none" and svgs.axis(states, 2)(m[1][2]) > -0.1 then fills[m.fill] = true end end
 check.equal(fills, { [pale] = true, [colour.stick] = true, [colour.slip] = true }, "the map")
+-- Stick and slip have nearly the same grey: what slips, and that alone, is hatched.
+local hatching <const>, hatched, slipping = "#5a3700", 0, {}
+for _, m in ipairs(states.marks) do if m.kind == "polygon" and m.fill == colour.slip then slipping[#slipping + 1] = m end end
+for _, m in ipairs(states.marks) do
+  if m.stroke == hatching and svgs.axis(states, 2)(m[1][2]) > -0.1 then
+    local x <const>, y <const> = (m[1][1] + m[2][1]) / 2, (m[1][2] + m[2][2]) / 2
+    local inside = false
+    for _, p in ipairs(slipping) do inside = inside or near(x, (p[1][1] + p[3][1]) / 2, math.abs(p[1][1] - p[3][1]) / 2 + 0.02) and near(y, (p[1][2] + p[3][2]) / 2, math.abs(p[1][2] - p[3][2]) / 2 + 0.02) end
+    check.that(inside, "hatched where it does not slip")
+    hatched = hatched + 1
+  end
+end
+check.that(hatched > #slipping / 4, "slip without hatching")
 for p, of_open in pairs{ [svg] = colour.open, [drawn(solid, { map = surface })] = colour.open, [states] = pale } do
   for status, c in pairs(colour) do
     local own <const> = { ["#ffffff"] = true }
-    for _, m in ipairs(svgs.sample(p, status)) do own[m.stroke or m.fill] = true end
+    for _, m in ipairs(svgs.sample(p, status)) do if m.stroke ~= hatching then own[m.stroke or m.fill] = true end end
     check.equal(own, { ["#ffffff"] = true, [status == "open" and of_open or c] = true }, "legend of " .. status)
   end
 end

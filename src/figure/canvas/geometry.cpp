@@ -20,8 +20,11 @@ Vec3 part_way(const Vec3& p, const Vec3& q, double t) { return plus(p, plus(q, p
 double length(const Vec3& a) { return std::sqrt(dot(a, a)); }
 
 Vec3 unit(const Vec3& a) {
-  const double size = length(a);
-  return size > 0 ? Vec3{a[0] / size, a[1] / size, a[2] / size} : Vec3{0, 0, 0};
+  const double most = greatest(a);
+  if (!(most > 0)) return {0, 0, 0};
+  const Vec3 b{a[0] / most, a[1] / most, a[2] / most};  // its square neither overflows nor vanishes
+  const double size = length(b);
+  return {b[0] / size, b[1] / size, b[2] / size};
 }
 
 Point View::direction(const Vec3& d) const {

@@ -1,7 +1,12 @@
 // From the user's coordinates to pixels, and the outlines of bodies.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
+#include <ranges>
+#include <span>
 #include <vector>
 
 #include "figure/canvas/canvas.hpp"
@@ -38,6 +43,27 @@ std::vector<std::array<P, 4>> quarters(const std::vector<P>& corner) {
   for (std::size_t k = 1; k < n; ++k) centre = part_way(centre, corner[k], 1.0 / static_cast<double>(k + 1));
   std::vector<std::array<P, 4>> out;
   for (std::size_t k = 0; k < n; ++k) out.push_back({corner[k], part_way(corner[k], corner[(k + 1) % n], 0.5), centre, part_way(corner[k], corner[(k + n - 1) % n], 0.5)});
+  return out;
+}
+
+// Parallels at 45 degrees, `spacing` apart, within a convex polygon; those of polygons that meet go on in each other.
+template <class P>
+std::vector<std::array<P, 2>> hatched(std::span<const P> corner, double spacing) {
+  const auto level = [&](const P& p) {
+    if constexpr (std::is_same_v<P, Point>) return (p.x - p.y) / (std::numbers::sqrt2 * spacing);
+    else return (p[0] - p[1]) / (std::numbers::sqrt2 * spacing);
+  };
+  const auto [low, high] = std::ranges::minmax(corner | std::views::transform(level));
+  std::vector<std::array<P, 2>> out;
+  for (double at = std::ceil(low); at < high; ++at) {
+    std::vector<P> ends;
+    for (std::size_t c = 0; c < corner.size(); ++c) {
+      const P &p = corner[c], &q = corner[(c + 1) % corner.size()];
+      const double a = level(p) - at, b = level(q) - at;
+      if ((a > 0) != (b > 0)) ends.push_back(part_way(p, q, a / (a - b)));
+    }
+    if (ends.size() == 2) out.push_back({ends[0], ends[1]});
+  }
   return out;
 }
 

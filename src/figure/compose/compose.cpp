@@ -45,27 +45,22 @@ const char* key_of(FieldChoice choice) { return field_names()[static_cast<std::s
 bool is_stress(FieldChoice field) { return field >= FieldChoice::von_mises && field <= FieldChoice::xy; }
 bool of_contacts(FieldChoice field) { return field >= FieldChoice::pressure; }
 
-/// √ of each cell's share of the square of the estimate, on the polygons that are drawn: the cells of `cut`, in space the facets of its boundary.
-std::vector<double> error_indicators(const Solution& s, int index, const mesh::Mesh& cut) {
+/// √ of each cell's share of the square of the estimate, for each of the pieces that cells of order 2 are cut into.
+std::vector<double> error_indicators(const Solution& s, int index, int cells) {
   const auto& shares = s.error_estimate().cells[index];
-  const int pieces = cut.cell_count() / static_cast<int>(shares.size());
-  const auto of_cell = [&](int cell) { return std::sqrt(std::max(0.0, shares[cell / pieces].sum())); };
+  const int pieces = cells / static_cast<int>(shares.size());
   std::vector<double> out;
-  if (cut.topology().dimension == 2)
-    for (int c = 0; c < cut.cell_count(); ++c) out.push_back(of_cell(c));
-  else
-    for (const mesh::Facet f : mesh::boundary(cut)) out.push_back(of_cell(f.cell));
+  for (int c = 0; c < cells; ++c) out.push_back(std::sqrt(std::max(0.0, shares[c / pieces].sum())));
   return out;
 }
 
-MapField map_field(FieldChoice field) {
-  switch (field) {
-    case FieldChoice::pressure: return MapField::pressure;
-    case FieldChoice::gap: return MapField::gap;
-    case FieldChoice::slip: return MapField::slip;
-    case FieldChoice::status: return MapField::status;
-    default: throw InputError(std::string("a map shows a field of the contact: \"pressure\", \"gap\", \"slip\" or \"status\", not the field \"") + key_of(field) + "\"");
-  }
+/// At each node; of open nodes the slip is NaN, which is drawn grey. Of `status` none.
+std::vector<double> contact_values(const ContactPicture& contact, FieldChoice field) {
+  std::vector<double> out;
+  if (field == FieldChoice::status) return out;
+  for (const ContactNode& node : contact.nodes)
+    out.push_back(field == FieldChoice::pressure ? node.pressure : field == FieldChoice::gap ? node.gap : node.status == Status::open ? NAN : node.slip);
+  return out;
 }
 
 /// The edges of cells of order 2 (in space of the facets drawn, as others are behind), cut in two at their nodes.
@@ -95,8 +90,10 @@ BodyPicture body_picture(const Solution& s, int index, const SceneOptions& optio
   picture.cells = mesh.cells;
   picture.nodes_per_facet = mesh.topology().nodes_per_facet;
   if (body.mesh->topology().order == 2) picture.edges = second_order_edges(*body.mesh);
-  for (const mesh::Facet f : mesh::boundary(mesh))
+  for (const mesh::Facet f : mesh::boundary(mesh)) {
     for (int k = 0; k < picture.nodes_per_facet; ++k) picture.facets.push_back(mesh.facet_node(f, k));
+    if (field == FieldChoice::error) picture.facet_cells.push_back(f.cell);
+  }
   const auto& u = s.displacement(index);
   for (int n = 0; n < mesh.node_count(); ++n) {
     const Vec3 x = mesh.point(n), d = mesh::at_node(u, n, dim);
@@ -105,7 +102,7 @@ BodyPicture body_picture(const Solution& s, int index, const SceneOptions& optio
   }
   if (options.trajectories)
     for (const Stress& at_node : s.stress(index)) picture.stress.insert(picture.stress.end(), {at_node[0], at_node[1], at_node[5]});
-  if (field == FieldChoice::error) picture.cell_values = error_indicators(s, index, mesh);
+  if (field == FieldChoice::error) picture.cell_values = error_indicators(s, index, mesh.cell_count());
   if (!field_of(field).value) return picture;
   for (int n = 0; n < mesh.node_count(); ++n)
     picture.values.push_back(field_of(field).value(mesh::at_node(u, n, dim), is_stress(field) ? s.stress(index)[n] : Stress{}));
@@ -155,6 +152,27 @@ void add_loads(const Solution& s, int index, ScenePicture& picture) {
   const std::size_t step = std::max<std::size_t>(1, arrows.size() / 200);
   for (std::size_t k = 0; k < arrows.size(); k += step)
     picture.loads.push_back({arrows[k].at, s.displacement(index, arrows[k].at), arrows[k].value});
+}
+
+/// A field that is zero but for rounding is drawn as zero: one below 1e-9 of the greatest stress or displacement in the scene.
+void drop_rounding(const Solution& s, FieldChoice field, ScenePicture& picture) {
+  constexpr double kRounding = 1e-9;
+  double reference = 0, most = 0;
+  for (int b = 0; b < static_cast<int>(s.scene().bodies.size()); ++b) {
+    if (!is_stress(field)) reference = std::max(reference, greatest(s.displacement(b)));
+    else
+      for (const Stress& at_node : s.stress(b)) reference = std::max(reference, greatest(at_node));
+  }
+  std::vector<std::vector<double>*> fields;
+  for (BodyPicture& body : picture.bodies) fields.push_back(&body.values);
+  for (ContactPicture& contact : picture.contacts) fields.push_back(&contact.values);
+  for (const auto* values : fields)
+    for (const double v : *values)
+      if (std::isfinite(v)) most = std::max(most, std::abs(v));
+  if (most < kRounding * reference)
+    for (auto* values : fields)
+      for (double& v : *values)
+        if (std::isfinite(v)) v = 0;
 }
 
 double scene_size(const Solution& s) {
@@ -252,7 +270,7 @@ void add_contacts(const Solution& s, const SceneOptions& options, const std::vec
     if (contact->kind != Contact::Kind::contact) continue;
     const scene::ContactResult result = s.contact(*contact);
     ContactPicture& shown = picture.contacts.emplace_back(contact_picture(*contact, result));
-    if (of_contacts(options.field)) shown.values = field_values(shown, map_field(options.field));
+    if (of_contacts(options.field)) shown.values = contact_values(shown, options.field);
     const Vec3& first = moves[s.scene().index_of(contact->first.body.get())];
     if (options.explode > 0) move_contact(shown, first, contact->second.body ? moves[s.scene().index_of(contact->second.body.get())] : first);
     if (!contact->second.body && options.obstacle) {
@@ -287,15 +305,22 @@ ScenePicture compose(const Solution& s, const SceneOptions& options) {
     for (std::size_t i = loads; i < picture.loads.size(); ++i) picture.loads[i].position = plus(picture.loads[i].position, moves[b]);
   }
   if (options.contact) add_contacts(s, options, moves, picture);
+  if (of_contacts(options.field) && picture.contacts.empty())
+    throw InputError(std::string("field \"") + key_of(options.field) + "\" is one of contacts; " + (options.contact ? "this scene has none" : "with 'contact' false none is drawn"));
+  if (options.field != FieldChoice::pressure && options.field != FieldChoice::error && options.field != FieldChoice::none) drop_rounding(s, options.field, picture);
   return picture;
 }
 
 ScenePicture compose_map(const Solution& s, const Contact& contact, FieldChoice field) {
   if (s.scene().dimension() == 2) throw InputError("'map' is for contacts in space; this scene is 2-D");
   if (contact.kind != Contact::Kind::contact) throw InputError("'map' is for contacts; this is a glue");
-  ScenePicture picture = contact_map(contact_picture(contact, s.contact(contact)), map_field(field));
+  if (!of_contacts(field)) throw InputError(std::string("a map shows a field of the contact: \"pressure\", \"gap\", \"slip\" or \"status\", not the field \"") + key_of(field) + "\"");
+  ContactPicture shown = contact_picture(contact, s.contact(contact));
+  shown.values = contact_values(shown, field);
+  ScenePicture picture = contact_map(shown);
   picture.field_label = field_of(field).label;
   picture.caption = solver::doubt(s.result());
+  if (field == FieldChoice::gap || field == FieldChoice::slip) drop_rounding(s, field, picture);
   return picture;
 }
 

@@ -76,7 +76,7 @@ void check_count(const std::vector<double>& given, std::size_t n, const std::str
 }
 
 // Its ends, and how far they are apart.
-bool is_range(const std::array<double, 2>& range) { return range[0] <= range[1] && std::isfinite(range[1] - range[0]); }
+bool is_range(const std::array<double, 2>& range) { return range[0] < range[1] && std::isfinite(range[1] - range[0]); }
 
 void check_body(const BodyPicture& body, int dimension) {
   const std::string who = "body \"" + body.name + "\"";
@@ -89,8 +89,10 @@ void check_body(const BodyPicture& body, int dimension) {
   check_count(body.displacement, n, who, "displacement components", 3);
   check_count(body.values, n, who, "field values");
   check_count(body.stress, n, who, "stress components", 3);
-  const std::size_t polygons = dimension == 2 ? body.cells.size() / nodes_per_cell(body.shape, 1) : body.facets.size() / body.nodes_per_facet;
-  require(body.cell_values.empty() || body.cell_values.size() == polygons, who, ": ", body.cell_values.size(), " values for ", polygons, " cells or facets");
+  const std::size_t cells = body.cells.size() / nodes_per_cell(body.shape, 1), facets = body.facets.size() / body.nodes_per_facet;
+  require(body.cell_values.empty() || body.cell_values.size() == cells, who, ": ", body.cell_values.size(), " values for ", cells, " cells");
+  require(dimension == 2 || body.cell_values.empty() || body.facet_cells.size() == facets, who, ": the cells of ", body.facet_cells.size(), " of ", facets, " facets");
+  check_nodes(body.facet_cells, 1, cells, who + ", cells of facets");
   require(finite(body.points), who + ": a coordinate is not finite");
   require(finite(body.displacement), who + ": a displacement is not finite");
   require(dimension == 2 ? body.nodes_per_facet == 2 : body.nodes_per_facet == 3 || body.nodes_per_facet == 4,
@@ -116,11 +118,25 @@ void check_window(const ScenePicture& p) {
   refuse("shows no body; as drawn, they lie within " + box_text({all.left, all.bottom, all.right, all.top}));
 }
 
+// A window or a cut in space leaves something to be seen.
 void check_space(const ScenePicture& p) {
+  if (!p.cut && !p.region) return;
+  Vec3 least{1e300, 1e300, 1e300}, most{-1e300, -1e300, -1e300};
+  bool stays = !p.cut;
+  for (const BodyPicture& body : p.bodies)
+    for (std::size_t i = 0; i < body.points.size() / 3; ++i) {
+      const Vec3 at = body.node(i, p.deformation);
+      for (std::size_t c = 0; c < 3; ++c) least[c] = std::min(least[c], at[c]), most[c] = std::max(most[c], at[c]);
+      stays = stays || p.cut->beyond(at) < 0;
+    }
+  const std::string lie = text("; as drawn, they lie within {", least[0], ", ", least[1], ", ", least[2], ", ", most[0], ", ", most[1], ", ", most[2], "}");
   if (p.cut) require(finite(p.cut->point, p.cut->normal) && p.cut->normal != Vec3{0, 0, 0}, "a cut needs a finite point and a normal that is not zero");
+  if (!stays) throw InputError("'cut' leaves nothing of the bodies" + lie + ", and what its 'normal' points to is left out");
   if (!p.region) return;
   const auto& r = *p.region;
   if (!(finite(r) && r[0] < r[3] && r[1] < r[4] && r[2] < r[5])) throw InputError("window is empty; it must be {x0, y0, z0, x1, y1, z1} with x0 < x1, y0 < y1 and z0 < z1");
+  for (std::size_t c = 0; c < 3; ++c)
+    if (r[c] > most[c] || r[c + 3] < least[c]) throw InputError("window shows no body" + lie);
 }
 
 }  // namespace
@@ -131,8 +147,7 @@ static void check_scene(const ScenePicture& p) {
   for (const std::string* unit : {&p.length_unit, &p.load_unit}) check_text("'units'", *unit);
   require(!p.bodies.empty(), "the picture " + p.file + " shows no body");
   require(std::isfinite(p.deformation), "the deformation factor is not finite");
-  require(!p.field_range || (finite(*p.field_range) && (*p.field_range)[0] <= (*p.field_range)[1]),
-          "the range of the field must be {least, greatest}");
+  require(!p.field_range || is_range(*p.field_range), "the range of the field must be {least, greatest}, the greatest beyond the least");
   const int dimension = p.bodies.front().dimension;
   for (const BodyPicture& body : p.bodies) check_body(body, dimension);
   check_window(p);
@@ -183,7 +198,7 @@ void check_drawing(const CurveDrawing& c) {
   for (const PageCurve& curve : c.curves)
     require(!curve.x.empty() && curve.x.size() == curve.y.size() && finite(curve.x, curve.y), "a curve needs as many finite y as x, one at least");
   for (const auto& range : {c.x_range, c.y_range})
-    require(!range || (is_range(*range) && (*range)[0] < (*range)[1]), "the range of an axis must be {least, greatest}");
+    require(!range || (is_range(*range)), "the range of an axis must be {least, greatest}");
 }
 
 void check(const PagePicture& p) {
@@ -223,7 +238,7 @@ void check(const PlatePicture& p) {
   check_count(p.values, n, "plate", "field values");
   check_count(p.obstacle, n, "plate", "heights of the obstacle");
   require(finite(p.points, p.deflection, p.deformation), "a plate has a value that is not finite");
-  require(!p.field_range || is_range(*p.field_range), "the range of the field must be {least, greatest}");
+  require(!p.field_range || is_range(*p.field_range), "the range of the field must be {least, greatest}, the greatest beyond the least");
   require(!p.view_from || finite(*p.view_from), "the direction towards the eye is not finite");
   for (const PlateEdge& e : p.boundary) check_boundary(e);
   for (const PlateForce& f : p.forces) require(finite(f.x, f.y, f.force), "a force on a plate is not finite");

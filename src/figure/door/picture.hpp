@@ -67,9 +67,10 @@ struct BodyPicture {
   std::vector<double> displacement;         // 3 n, or empty: not displaced
   std::vector<int> cells;                   // nodes of the cells, 3, 4, 4 or 8 each, VTK order; in space they are not drawn
   std::vector<double> values;               // n: the field at the nodes, or empty: plain colour
-  std::vector<double> cell_values;          // one for each cell in the plane, each facet in space, in place of `values`; or empty
+  std::vector<double> cell_values;          // one for each cell, in place of `values`; or empty
   std::vector<double> stress;               // plane, 3 n: xx yy xy, for trajectories; or empty
   std::vector<int> facets;                  // nodes of the boundary facets, flat; empty in the plane: edges of one cell only
+  std::vector<int> facet_cells;             // space, where there are cell_values: of each facet its cell
   int nodes_per_facet = 2;                  // 2 in the plane, 3 or 4 in space
   std::vector<int> edges;                   // mesh lines, two nodes each; empty: the edges of the cells
 

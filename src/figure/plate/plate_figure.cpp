@@ -157,21 +157,9 @@ void plate_legend(const Plate& plate, double em, double width, std::vector<Legen
   if (!plate.picture.bearing.empty()) out.push_back(bearing_entry(em));
 }
 
-std::vector<PlateLine> hatch(const Plate& plate, double spacing) {
-  std::vector<PlateLine> out;
-  const auto height = [](const Vec3& p) { return (p[0] - p[1]) / std::numbers::sqrt2; };
-  for (const PlateLine& corner : plate.zone) {
-    const auto [low, high] = std::ranges::minmax(corner | std::views::transform(height));
-    for (double level = std::ceil(low / spacing); level * spacing < high; ++level) {
-      PlateLine ends;
-      for (std::size_t c = 0; c < corner.size(); ++c) {
-        const Vec3 &p = corner[c], &q = corner[(c + 1) % corner.size()];
-        const double a = height(p) - level * spacing, b = height(q) - level * spacing;
-        if ((a > 0) != (b > 0)) ends.push_back(part_way(p, q, a / (a - b)));
-      }
-      if (ends.size() == 2) out.push_back(std::move(ends));
-    }
-  }
+std::vector<std::array<Vec3, 2>> hatch(const Plate& plate, double spacing) {
+  std::vector<std::array<Vec3, 2>> out;
+  for (const PlateLine& corner : plate.zone) std::ranges::copy(hatched(std::span(corner), spacing), std::back_inserter(out));
   return out;
 }
 

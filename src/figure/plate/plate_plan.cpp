@@ -30,10 +30,8 @@ bool is_free(const Stage& stage, const Plate& plate, const Box& box) {
 
 void draw_bearing(Stage& stage, const Plate& plate) {
   const Colour colour = status_colour(Status::closed);
-  for (const PlateLine& line : hatch(plate, 0.45 * stage.em / stage.view.scale)) {
-    const std::vector<Point> ends = flat(stage, line);
-    stage.over.line(ends[0], ends[1], std::max(1.0, stage.em / 18), colour);
-  }
+  for (const auto& [p, q] : hatch(plate, 0.45 * stage.em / stage.view.scale))
+    stage.over.line(stage.view.flat(p), stage.view.flat(q), std::max(1.0, stage.em / 18), colour);
   for (const auto& [width, ink] : {std::pair{stage.em / 5, Colour{255, 255, 255}}, std::pair{stage.em / 10, colour}})
     for (const PlateLine& line : plate.rim) {
       const std::vector<Point> ends = flat(stage, line);

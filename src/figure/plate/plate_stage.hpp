@@ -50,8 +50,8 @@ struct Plate {
   Vec3 node(int i, double factor) const { return {picture.points[2 * i], picture.points[2 * i + 1], factor * picture.deflection[i]}; }
 };
 
-// Parallels at 45 degrees, `spacing` apart, on the zone that bears on the obstacle: two points each.
-std::vector<PlateLine> hatch(const Plate& plate, double spacing);
+// Parallels, `spacing` apart, on the zone that bears on the obstacle.
+std::vector<std::array<Vec3, 2>> hatch(const Plate& plate, double spacing);
 
 // In the colour of its status, or of the kind of support where it has none.
 Colour support_colour(PlateSupport support, const std::optional<Status>& status);

@@ -56,7 +56,7 @@ void add_gaps(const Stage& stage, const Plate& plate, vtkRenderer* renderer) {
 void add_zone(Stage& stage, const Plate& plate, vtkRenderer* renderer) {
   const double factor = plate.picture.deformation;
   Shapes lines(stage, 2), outline(stage, 2), halo(stage, 2);
-  for (const PlateLine& line : hatch(plate, 0.7 * stage.em / stage.view.scale))
+  for (const auto& line : hatch(plate, 0.7 * stage.em / stage.view.scale))
     for (const Vec3& end : line) lines.add({end[0], end[1], factor * end[2]}, 2);
   for (const PlateLine& line : plate.rim)
     for (const Vec3& end : line) outline.add({end[0], end[1], factor * end[2]}, 3 + 0.3 * stage.em), halo.add({end[0], end[1], factor * end[2]}, 2 + 0.3 * stage.em);

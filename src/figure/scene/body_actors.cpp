@@ -96,13 +96,14 @@ BodyPicture skin_of(const BodyPicture& body) {
   };
   for (const int i : body.facets) skin.facets.push_back(take(i));
   for (const int i : body.edges) skin.edges.push_back(take(i));
+  for (const int cell : body.facet_cells) skin.cell_values.push_back(body.cell_values[cell]);  // of facets now
   return skin;
 }
 
 void draw_in_space(Stage& stage, vtkRenderer* renderer, const BodyPicture& body, Colour plain) {
   const BodyPicture skin = skin_of(body);
   const Facets faces{skin.facets, body.nodes_per_facet};
-  draw_faces(stage, renderer, skin, faces, body.cell_values, plain);
+  draw_faces(stage, renderer, skin, faces, skin.cell_values, plain);
   add_features(stage, renderer, poly_data(pixels(stage, skin, stage.picture.deformation, 2), faces), outline_colour, std::max(1.2, stage.em / 18));
   if (draws_undeformed(stage, skin)) add_features(stage, renderer, poly_data(pixels(stage, skin, 0, 0.3), faces), undeformed_colour, std::max(0.8, stage.em / 28));
 }

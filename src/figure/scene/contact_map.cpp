@@ -3,6 +3,7 @@
 #include <map>
 #include <numbers>
 #include <numeric>
+#include <utility>
 
 #include "base/error.hpp"
 #include "figure/canvas/geometry.hpp"
@@ -196,6 +197,7 @@ void close(Flat& flat, ContactPicture& contact) {
       const auto [found, fresh] = again.try_emplace(node, static_cast<int>(contact.nodes.size()));
       if (fresh) {
         contact.nodes.push_back(ContactNode(contact.nodes[node]));
+        if (!contact.values.empty()) contact.values.push_back(double(contact.values[node]));
         flat.at.push_back(Point(flat.at[node]));
         flat.at.back().*along += flat.period;
         flat.across.push_back(Vec3(flat.across[node])), flat.up.push_back(Vec3(flat.up[node]));
@@ -207,17 +209,9 @@ void close(Flat& flat, ContactPicture& contact) {
 
 }  // namespace
 
-std::vector<double> field_values(const ContactPicture& contact, MapField field) {
-  std::vector<double> out;
-  if (field == MapField::status) return out;
-  for (const ContactNode& node : contact.nodes)
-    out.push_back(field == MapField::pressure ? node.pressure : field == MapField::gap ? node.gap : node.status == Status::open ? NAN : node.slip);
-  return out;
-}
-
 bool has_map(const ContactPicture& contact) { return !contact.facets.empty() && contact.nodes_per_facet > 2 && flattened(contact); }
 
-ScenePicture contact_map(const ContactPicture& given, MapField field) {
+ScenePicture contact_map(const ContactPicture& given) {
   if (given.facets.empty() || given.nodes_per_facet < 3) throw InputError("contact \"" + given.name + "\" has no surface that a map could show");
   std::optional<Flat> found = flattened(given);
   if (!found) throw InputError("contact \"" + given.name + "\" is closed and not a cylinder: a map of it would lie upon itself; make contacts of its sides");
@@ -228,7 +222,7 @@ ScenePicture contact_map(const ContactPicture& given, MapField field) {
   BodyPicture& body = map.bodies.emplace_back();
   body.name = contact.name;
   body.shape = contact.nodes_per_facet == 3 ? CellShape::triangle : CellShape::quad;
-  body.values = field_values(contact, field);
+  body.values = std::exchange(contact.values, {});
   if (!body.values.empty()) body.cells = contact.facets;
   for (std::size_t i = 0; i < contact.nodes.size(); ++i) {
     ContactNode& node = contact.nodes[i];

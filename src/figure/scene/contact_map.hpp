@@ -5,12 +5,7 @@
 
 namespace dotyk::figure {
 
-enum class MapField { status, pressure, gap, slip };
-
-// At each node; of open nodes the slip is NaN, which is drawn grey. Of `status` none.
-std::vector<double> field_values(const ContactPicture& contact, MapField field);
-
-// The surface of the contact at rest, a body in the plane with the field as its values (of `status` none), and the contact on it.
+// The surface of the contact at rest, a body in the plane with the values of the contact, and the contact on it, which shows its statuses.
 //   flat:                          its own plane
 //   straight lines in a direction: (of a cylinder, a tooth) unrolled, `arc` is the length along the profile, from the middle of it;
 //                                  a closed cylinder is cut opposite to the mean of its pressure
@@ -18,6 +13,6 @@ std::vector<double> field_values(const ContactPicture& contact, MapField field);
 // Axes keep the names and numbers of the scene's coordinates where the surface is along them. Contacts without facets have no map, nor have closed ones
 // that are no cylinders: throws InputError.
 bool has_map(const ContactPicture& contact);
-ScenePicture contact_map(const ContactPicture& contact, MapField field);
+ScenePicture contact_map(const ContactPicture& contact);
 
 }  // namespace dotyk::figure

@@ -136,6 +136,7 @@ LegendEntry status_entry(const Stage& stage, Status status) {
             const double half = std::min(0.6 * em, 0.4 * b.width());
             const Box sample{b.centre().x - half, middle - 0.35 * em, b.centre().x + half, middle + 0.35 * em};
             status == Status::open ? c.outline(sample, 0.16 * em, colour) : c.box(sample, colour);
+            if (status == Status::slip) hatch_slip(c, sample.corners(), em);
           }};
 }
 

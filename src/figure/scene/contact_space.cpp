@@ -46,14 +46,19 @@ std::vector<Vec3> corners(const Stage& stage, const ContactPicture& contact, std
 // Each facet, quartered to its nodes, in their colours.
 void add_statuses(const Stage& stage, const ContactPicture& contact, vtkRenderer* renderer) {
   for (const Status status : {Status::closed, Status::stick, Status::slip}) {  // open leaves the field to be seen
-    Shapes quads(stage, 4);
+    Shapes quads(stage, 4), hatching(stage, 2);
     each_polygon({contact.facets, contact.nodes_per_facet}, [&](std::span<const int> facet) {
       const auto parts = quarters(corners(stage, contact, facet));
-      for (std::size_t k = 0; k < parts.size(); ++k)
-        if (contact.nodes[facet[k]].status == status)
-          for (const Vec3& p : parts[k]) quads.add(p, 1.5);
+      for (std::size_t k = 0; k < parts.size(); ++k) {
+        if (contact.nodes[facet[k]].status != status) continue;
+        std::vector<Vec3> quad;
+        for (const Vec3& p : parts[k]) quads.add(p, 1.5), quad.push_back(stage.view.pixel(p));
+        if (status != Status::slip) continue;
+        for (const auto& [p, q] : hatched(std::span<const Vec3>(quad), slip_spacing * stage.em)) hatching.add_pixel(p, 2.5), hatching.add_pixel(q, 2.5);
+      }
     });
     quads.show(renderer, status_colour(status));
+    hatching.show(renderer, slip_hatch, slip_line * stage.em);
   }
   add_open_rim(stage, contact, renderer);
 }
@@ -103,7 +108,7 @@ void add_contact_surface(const Stage& stage, const ContactPicture& contact, vtkR
 
 namespace {
 
-constexpr double inset_share = 0.36, inset_em = 14, inset_height = 12;  // its width in shares of the picture's, and in em; its height in em
+constexpr double inset_share = 0.36, inset_em = 14, inset_height = 12, least_inset = 20;  // its width in shares of the picture's, and in em; its height in em; mm
 
 // The contact that carries most, of those that have a map; of equals (but for rounding) the first.
 const ContactPicture* inset_contact(const ScenePicture& picture) {
@@ -120,21 +125,23 @@ const ContactPicture* inset_contact(const ScenePicture& picture) {
 
 }  // namespace
 
-std::optional<ScenePicture> inset_of(const ScenePicture& picture) {
+std::optional<ScenePicture> inset_of(const ScenePicture& picture, const ColourScale& scale) {
   const ContactPicture* contact = picture.inset && picture.bodies.front().dimension == 3 ? inset_contact(picture) : nullptr;
   if (!contact) return std::nullopt;
-  ScenePicture map = contact_map(*contact, MapField::status);
+  ScenePicture map = contact_map(*contact);
   const double em = letters(picture);
   map.file = picture.file, map.title = "contact " + contact->name;
   map.width = static_cast<int>(std::min(inset_em * em, inset_share * picture.width));
   map.printed = printed_width(picture) * map.width / picture.width;
+  if (*map.printed < least_inset) return std::nullopt;
   map.length_unit = picture.length_unit;
   map.pressure = picture.pressure, map.shear = picture.shear;
+  if (!contact->values.empty()) map.field_label = picture.field_label, map.field_signed = picture.field_signed, map.field_range = {scale.low, scale.high};
   map.height = static_cast<int>(inset_height * em);
   // As high as it needs: what it leaves free, or lacks, is known once it is laid out.
   for (int round = 0; round < 2; ++round) {
     Stage tried(map);
-    tried.own_legend = false;
+    tried.own_legend = tried.own_bar = false;
     map.height = std::clamp(map.height + static_cast<int>(std::ceil(lay_out(tried))), least_side, static_cast<int>(inset_height * em));
   }
   return map;
@@ -142,7 +149,7 @@ std::optional<ScenePicture> inset_of(const ScenePicture& picture) {
 
 void draw_inset(Stage& stage, Point corner) {
   Stage map(*stage.inset, stage.corner + corner);
-  map.own_legend = false;
+  map.own_legend = map.own_bar = false;
   lay_out(map);
   std::vector<Painted> parts = painted(map);
   std::move(parts.begin(), parts.end(), std::back_inserter(stage.insets));

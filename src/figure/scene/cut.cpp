@@ -1,6 +1,7 @@
 // A cut through the bodies of a scene in space: what is beyond it is left out, and the field is seen on it.
 #include <vtkActor.h>
 #include <vtkActorCollection.h>
+#include <vtkCellData.h>
 #include <vtkCutter.h>
 #include <vtkFloatArray.h>
 #include <vtkMapper.h>
@@ -33,7 +34,7 @@ vtkSmartPointer<vtkPlane> plane_of(const Stage& stage) {
   return plane;
 }
 
-// The cells of a body that the plane cuts.
+// The cells of a body that the plane cuts, with its values.
 vtkSmartPointer<vtkUnstructuredGrid> cells_at(const Stage& stage, const BodyPicture& body, vtkPlane* plane) {
   vtkNew<vtkPoints> points;
   std::vector<double> side;
@@ -45,18 +46,27 @@ vtkSmartPointer<vtkUnstructuredGrid> cells_at(const Stage& stage, const BodyPict
   auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
   grid->SetPoints(points);
   const int each = nodes_per_cell(body.shape, 1), type = body.shape == CellShape::tetrahedron ? VTK_TETRA : VTK_HEXAHEDRON;
-  each_polygon({body.cells, each}, [&](std::span<const int> cell) {
+  vtkNew<vtkFloatArray> values;
+  each_polygon({body.cells, each}, [&, number = std::size_t{0}](std::span<const int> cell) mutable {
+    const std::size_t own = number++;
     const auto [least, most] = std::ranges::minmax(cell, {}, [&](int i) { return side[i]; });
     if (side[least] >= 0 || side[most] <= 0) return;
     std::array<vtkIdType, 8> nodes{};
     std::copy(cell.begin(), cell.end(), nodes.begin());
     grid->InsertNextCell(type, each, nodes.data());
+    if (!body.cell_values.empty()) values->InsertNextValue(static_cast<float>(body.cell_values[own]));
   });
-  if (body.values.empty()) return grid;
-  vtkNew<vtkFloatArray> values;
   for (const double value : body.values) values->InsertNextValue(static_cast<float>(value));
-  grid->GetPointData()->SetScalars(values);
+  if (!body.cell_values.empty()) grid->GetCellData()->SetScalars(values);
+  else if (!body.values.empty()) grid->GetPointData()->SetScalars(values);
   return grid;
+}
+
+std::vector<double> values_on(vtkPolyData* cap, bool on_cells) {
+  vtkDataArray* scalars = on_cells ? cap->GetCellData()->GetScalars() : cap->GetPointData()->GetScalars();
+  std::vector<double> out;
+  for (vtkIdType i = 0; scalars && i < scalars->GetNumberOfTuples(); ++i) out.push_back(scalars->GetTuple1(i));
+  return out;
 }
 
 }  // namespace
@@ -75,10 +85,9 @@ void cut_bodies(const Stage& stage, vtkRenderer* renderer) {
     cutter->Update();
     vtkPolyData* cap = cutter->GetOutput();
     if (cap->GetNumberOfCells() == 0) continue;
-    std::vector<double> values;
-    if (vtkDataArray* scalars = body.values.empty() || !stage.scale.shown ? nullptr : cap->GetPointData()->GetScalars())
-      for (vtkIdType i = 0; i < scalars->GetNumberOfTuples(); ++i) values.push_back(scalars->GetTuple1(i));
-    values.empty() ? add_surface(stage, renderer, cap, plain_colour(k)) : add_coloured(stage, renderer, cap, values);
+    const bool on_cells = !body.cell_values.empty();
+    const std::vector<double> values = stage.scale.shown ? values_on(cap, on_cells) : std::vector<double>{};
+    values.empty() ? add_surface(stage, renderer, cap, plain_colour(k)) : add_coloured(stage, renderer, cap, values, on_cells);
     add_features(stage, renderer, cap, outline_colour, std::max(1.6, stage.em / 12));
   }
 }

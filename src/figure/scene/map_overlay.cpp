@@ -20,6 +20,7 @@ Colour map_colour(Status status) {
 }
 
 void fill_statuses(Stage& stage, const ContactPicture& contact, const std::vector<Point>& at) {
+  std::vector<std::array<Point, 4>> slipping;
   each_polygon({contact.facets, contact.nodes_per_facet}, [&](std::span<const int> facet) {
     std::vector<Point> corner;
     for (const int i : facet) corner.push_back(at[i]);
@@ -28,8 +29,10 @@ void fill_statuses(Stage& stage, const ContactPicture& contact, const std::vecto
       const Colour colour = map_colour(contact.nodes[facet[k]].status);
       stage.over.convex(parts[k], colour);
       stage.over.polyline(parts[k], 1, colour, {}, true);  // so that no seams show between them
+      if (contact.nodes[facet[k]].status == Status::slip) slipping.push_back(parts[k]);
     }
   });
+  for (const auto& part : slipping) hatch_slip(stage.over, part, stage.em);
 }
 
 // Lines between nodes of different statuses, half way.
@@ -106,6 +109,10 @@ void draw_pressure(Stage& stage, const ContactPicture& contact, const std::vecto
 
 }  // namespace
 
+void hatch_slip(Canvas& canvas, std::span<const Point> polygon, double em) {
+  for (const auto& [p, q] : hatched(polygon, slip_spacing * em)) canvas.line(p, q, slip_line * em, slip_hatch);
+}
+
 void draw_contact_map(Stage& stage, const ContactPicture& contact) {
   const std::vector<Point> at = stage.at(contact.nodes);
   const bool field = stage.scale.shown;
@@ -123,7 +130,9 @@ void draw_contact_map(Stage& stage, const ContactPicture& contact) {
 LegendEntry map_status_entry(const Stage& stage, Status status) {
   return {status_name(status), [em = stage.em, colour = status_colour(status), status, field = stage.scale.shown](Canvas& c, const Box& b) {
             if (field) return c.marker(status_marker(status), b.centre(), map_marker * em, colour);
-            c.box(Box::about(b.centre(), {std::min(1.2 * em, 0.8 * b.width()), 0.7 * em}), map_colour(status));
+            const Box sample = Box::about(b.centre(), {std::min(1.2 * em, 0.8 * b.width()), 0.7 * em});
+            c.box(sample, map_colour(status));
+            if (status == Status::slip) hatch_slip(c, sample.corners(), em);
           }};
 }
 

@@ -1,4 +1,5 @@
 // Texts at points of a scene, and boxes that frame parts of it.
+#include "base/error.hpp"
 #include "figure/canvas/axes.hpp"
 #include "figure/scene/stage.hpp"
 
@@ -6,32 +7,43 @@ namespace dotyk::figure {
 
 namespace {
 
+// The place of a note's words around its point that is in the room and clear of other notes, and the end of the line to it; the nearest one.
+std::optional<std::pair<Box, Point>> place_of(const Stage& stage, Point at, Point extent, const std::vector<Box>& taken) {
+  const Box& room = stage.room;
+  for (double far = 0.9 * stage.em; far < room.width() + room.height(); far += stage.em)
+    for (const Point d : {Point{0.8, 0.6}, Point{-0.8, 0.6}, Point{0.8, -0.6}, Point{-0.8, -0.6}, Point{0, 1}, Point{0, -1}}) {
+      const Point end = at + far * d;
+      const Box box = Box::about({end.x + (d.x > 0 ? 0.5 : d.x < 0 ? -0.5 : 0) * extent.x, end.y + (d.y > 0 ? 0.5 : -0.5) * extent.y}, extent).grown(0.1 * stage.em);
+      if (room.holds({box.left, box.bottom}) && room.holds({box.right, box.top}) && std::ranges::none_of(taken, [&](const Box& other) { return box.overlaps(other); }))
+        return std::pair{box, end};
+    }
+  return std::nullopt;
+}
+
+void draw_note(Stage& stage, const Note& note, std::vector<Box>& taken) {
+  const double em = stage.em;
+  const Point at = stage.view.flat(note.position);
+  const FittedText words = fitted(note.text, 0.9 * em, 0.6 * stage.room.width());
+  double width = 0;
+  for (const std::string& line : words.lines) width = std::max(width, text_extent(line, words.size).x);
+  const auto place = place_of(stage, at, {width, text_extent(note.text, words.size).y + words.depth()}, taken);
+  if (!place) throw InputError("no room for the note \"" + note.text + "\" on the picture; make it larger");
+  const auto& [box, end] = *place;
+  taken.push_back(box);
+  stage.over.line(at, end, std::max(1.0, em / 20), axes_ink);
+  stage.over.disc(at, 0.2 * em, {255, 255, 255});
+  stage.over.disc(at, 0.14 * em, axes_ink);
+  stage.over.text({box.centre().x, box.top - 0.1 * em}, words, {.across = Align::middle, .up = Align::high, .colour = axes_ink, .halo = true});
+}
+
 void draw_notes(Stage& stage, vtkRenderer*) {
-  const double em = stage.em, size = 0.9 * em;
   for (const auto& [x0, y0, x1, y1] : stage.picture.marked) {
     const Point a = stage.view.flat({x0, y0, 0}), b = stage.view.flat({x1, y1, 0});
-    stage.over.outline({a.x, a.y, b.x, b.y}, std::max(1.5, em / 12), axes_ink);
+    stage.over.outline({a.x, a.y, b.x, b.y}, std::max(1.5, stage.em / 12), axes_ink);
   }
   std::vector<Box> taken;
-  for (const Note& note : stage.picture.notes) {
-    const Point at = stage.view.flat(note.position), extent = text_extent(note.text, size);
-    if (!stage.shows(at)) continue;
-    stage.over.disc(at, 0.2 * em, {255, 255, 255});
-    stage.over.disc(at, 0.14 * em, axes_ink);
-    // Of the places around the point the first that is in the room and clear of other notes; farther off where none near it is.
-    std::optional<Box> place;
-    for (const double far : {0.9, 2.0, 3.2})
-      for (const Point d : {Point{0.8, 0.6}, Point{-0.8, 0.6}, Point{0.8, -0.6}, Point{-0.8, -0.6}, Point{0, 1}, Point{0, -1}}) {
-        const Point end = at + far * em * d;
-        const Box box = Box::about({end.x + (d.x > 0 ? 0.5 : d.x < 0 ? -0.5 : 0) * extent.x, end.y + (d.y > 0 ? 0.5 : -0.5) * extent.y}, extent).grown(0.1 * em);
-        if (place || !stage.room.holds({box.left, box.bottom}) || !stage.room.holds({box.right, box.top}) || std::ranges::any_of(taken, [&](const Box& other) { return box.overlaps(other); })) continue;
-        place = box;
-        stage.over.line(at, end, std::max(1.0, em / 20), axes_ink);
-      }
-    if (!place) continue;
-    taken.push_back(*place);
-    stage.over.text(place->centre(), note.text, {.size = size, .across = Align::middle, .up = Align::middle, .colour = axes_ink, .halo = true});
-  }
+  for (const Note& note : stage.picture.notes)
+    if (stage.shows(stage.view.flat(note.position))) draw_note(stage, note, taken);
 }
 
 }  // namespace

@@ -19,9 +19,9 @@ Stage::Stage(const ScenePicture& p, Point at)
     : picture(p), corner(at), factor(image_factor(p)), plane(p.bodies.front().dimension == 2), em(letters(p)),
       layers{contact_layer(), obstacle_layer(), load_layer(), support_layer(), isoline_layer(), trajectory_layer(), note_layer(), body_layer()} {
   under.origin(corner), over.origin(corner);
-  inset = inset_of(p);
   if (p.window) window = asked = box_of(*p.window);
   scale = colour_scale(p, window);
+  inset = inset_of(p, scale);
   set_greatest();
   for (const LoadArrow& load : p.loads) greatest_load = std::max(greatest_load, length(load.vector));
   greatest_load = std::max(greatest_load, p.longest[2]);
@@ -43,7 +43,7 @@ double Stage::strip_height() const {
 std::vector<bool> Stage::shown(const ContactPicture& contact) const {
   const std::vector<Point> at = this->at(contact.nodes);
   std::vector<bool> out;
-  for (const Point& p : at) out.push_back(shows(p));
+  for (std::size_t i = 0; i < at.size(); ++i) out.push_back(shows(at[i]) && stays(contact.nodes[i]));
   if (!window || contact.nodes_per_facet != 2) return out;
   for (const auto& [a, b] : pairs(contact.facets))
     if (shows(at[a], at[b])) out[a] = out[b] = true;
@@ -137,6 +137,7 @@ void draw_scene(const ScenePicture& picture, const std::function<void(Stage&)>& 
     Stage stage(grown);
     if (prepare) prepare(stage);
     const double missing = lay_out(stage);
+    refuse_narrow(stage);
     if (round == kRounds || !(missing > 1)) return write_picture(grown, painted(stage));
     grown.height = std::min(std::max(grown.height, greatest_side), grown.height + static_cast<int>(std::ceil(missing)));
   }

@@ -63,6 +63,7 @@ public:
     if (sheet_.height > greatest_side)
       throw InputError(text("the pictures of ", sheet_.file, " need ", sheet_.height, " pixels of height in ", rows(), " rows, at most ", greatest_side, " are possible; give more 'columns'"));
     lay_out_panels();
+    for (const Stage& stage : stages_) refuse_narrow(stage);
   }
 
   void write() {

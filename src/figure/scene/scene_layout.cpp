@@ -1,8 +1,10 @@
 // Where everything of a scene figure goes: the scene is fitted, with equal
 // axes, into what title, legend, axes and colour bar leave.
-#include "figure/scene/stage.hpp"
+#include "base/error.hpp"
+#include "base/text.hpp"
 #include "figure/canvas/axes.hpp"
 #include "figure/canvas/sheet.hpp"
+#include "figure/scene/stage.hpp"
 
 namespace dotyk::figure {
 
@@ -333,6 +335,18 @@ double lay_out(Stage& stage) {
   const double missing = std::max({column_height(stage, around) - room_of_column(stage, around), least_plot(p) - around.room.height(), stage.frame.height() - around.room.height()});
   if (!stage.plane && !stage.window) stage.frame = around.room;
   return missing;
+}
+
+void refuse_narrow(const Stage& stage) {
+  constexpr double kLeast = 15;  // mm
+  const ScenePicture& p = stage.picture;
+  const double mm = printed_width(p) / p.width;
+  double lacks = std::max(kLeast / mm - stage.room.width(), stage.frame.width() - stage.room.width() - 1);
+  for (const LegendEntry& entry : stage.entries)
+    if (stage.own_legend) lacks = std::max(lacks, Legend({entry}, legend_size * stage.em).width() + 2 * stage.em - p.width);
+  if (lacks > 0)
+    throw InputError(text("a picture in ", p.file, " is ", std::round(p.width * mm), " mm wide, of which letters and legend leave ", std::max(0.0, std::round(stage.room.width() * mm)),
+                          " mm to the scene; make it ", std::ceil((p.width + lacks) * mm), " mm wide at least"));
 }
 
 }  // namespace dotyk::figure

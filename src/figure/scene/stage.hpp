@@ -109,6 +109,8 @@ std::vector<Painted> painted(Stage& stage);
 // and colour bar; draws these. Returns how many pixels the picture's height lacks for a scene and a colour bar that are legible;
 // less than 0: so many it does not need.
 double lay_out(Stage& stage);
+// Of a stage that is laid out: throws InputError, which names the width needed, where what stands beside the scene leaves it too little of the sheet.
+void refuse_narrow(const Stage& stage);
 
 // Fits the picture's window into the room. The greatest pressure comes to a fifth of its height, less where it would not fit; from
 // three quarters of that on the window grows. Sets stage.view, frame, window, and what depends on what is seen: greatest pressure,
@@ -138,11 +140,12 @@ Layer note_layer();
 Layer support_layer();
 Layer load_layer();
 
-// A map of the contact that carries most of a scene in space, with its size; and its drawing, with its lower left pixel there.
-std::optional<ScenePicture> inset_of(const ScenePicture& picture);
+// A map of the contact that carries most of a scene in space, with its size: of its statuses, or in the colours of the scene where these show a field of contacts. Its drawing, with its lower left pixel there.
+std::optional<ScenePicture> inset_of(const ScenePicture& picture, const ColourScale& scale);
 void draw_inset(Stage& stage, Point corner);
 // A contact on its map; the sample of a status in its legend.
 void draw_contact_map(Stage& stage, const ContactPicture& contact);
+void hatch_slip(Canvas& canvas, std::span<const Point> polygon, double em);
 LegendEntry map_status_entry(const Stage& stage, Status status);
 // Arrows of the shear at some of the nodes that rub, those that `choice` takes of their places; where a node's arrow begins and ends.
 void draw_shear(Stage& stage, const ContactPicture& contact, const std::vector<Point>& at,
@@ -171,5 +174,8 @@ Point pressure_tip(const Stage& stage, const ContactNode& node);
 
 constexpr Colour pressure_line{45, 50, 90}, pressure_fill{205, 214, 235}, shear_line{150, 15, 40};
 constexpr double hatch_depth = 0.75;  // em
+// Surfaces that slip are hatched: the greys of stick and slip are nearly the same.
+constexpr Colour slip_hatch{90, 55, 0};
+constexpr double slip_spacing = 0.42, slip_line = 0.07;  // em
 
 }  // namespace dotyk::figure

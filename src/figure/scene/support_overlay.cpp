@@ -174,7 +174,7 @@ void draw_loads(Stage& stage, vtkRenderer* renderer) {
 
 void load_legend(const Stage& stage, std::vector<LegendEntry>& out) {
   const auto& loads = stage.picture.loads;
-  const bool seen = std::any_of(loads.begin(), loads.end(), [&](const LoadArrow& load) { return stage.shows(stage.at(load)); });
+  const bool seen = std::any_of(loads.begin(), loads.end(), [&](const LoadArrow& load) { return stage.shows(stage.at(load)) && stage.stays(load); });
   if (!seen || !(stage.greatest_load > 0)) return;
   const std::string& unit = stage.picture.load_unit;
   out.push_back({"load, at most " + number(stage.greatest_load) + (unit.empty() ? "" : " " + unit), [em = stage.em](Canvas& c, const Box& b) {

@@ -1,5 +1,5 @@
 // Pictures of solutions, alone and side by side, and files for ParaView.
-#include "figure/canvas/plane.hpp"
+#include "figure/canvas/geometry.hpp"
 #include "figure/compose/compose.hpp"
 #include "script/bind/bind.hpp"
 #include "script/bind/figure_keys.hpp"
@@ -29,7 +29,7 @@ SceneOptions scene_options(const Call& call, int dimension) {
   } else if (!call.has("deform") && call.has("window")) {
     options.deform = 1;  // the window is in coordinates of the deformed picture
   }
-  if (options.explode < 0) throw InputError(text("explode is ", options.explode, "; it must be zero or positive"));
+  if (!(options.explode >= 0 && options.explode <= 100)) throw InputError(text("explode is ", options.explode, "; it must be from 0 to 100"));
   return options;
 }
 
@@ -51,6 +51,7 @@ void read_cut(const Arguments& call, ScenePicture& picture) {
   figure::Cut& cut = picture.cut.emplace();
   std::copy(point.begin(), point.end(), cut.point.begin());
   std::copy(normal.begin(), normal.end(), cut.normal.begin());
+  cut.normal = figure::unit(cut.normal);
   if (cut.normal == figure::Vec3{0, 0, 0}) throw InputError("'normal' of 'cut' is zero; it must have a direction");
 }
 
