@@ -61,6 +61,11 @@ local six <const>, plain <const> = pulled(6), { field = "ux", isolines = true, d
 local svg = drawn(pulled(5), plain)
 check.equal(isolines(svg, 5), "1 2 3 4")
 check.equal(numbers(svg, 0.85), "1 2 3 4")
+-- A field that is zero but for rounding is drawn as zero.
+for _, zero in ipairs{ "uy", "yy", "xy" } do
+  local text <const> = drawn(pulled(5), { field = zero }).text
+  check.that(text:find("|max 0|", 1, true) and text:find("|min 0|", 1, true), zero .. " is not zero")
+end
 -- 2. Trajectories of uniaxial tension: full along x, dashed along y, from end to end, apart.
 local traced <const>, widest = drawn(six, { field = "none", trajectories = true, deform = 0 }), 0
 for c = 1, 2 do
@@ -181,6 +186,19 @@ local function from_front(o)
 end
 local function cut(field, y) return from_front{ field = field, range = { -2e-5, 2e-5 }, cut = y and { point = { 0, y, 0 }, normal = { 0, -1, 0 } } }.images[1] end
 check.that(cut "uy" ~= cut("uy", 0.3) and cut("uy", 0.3) ~= cut("uy", 0.6) and cut("none", 0.3) == cut("none", 0.6), "a cut shows the field on it") -- faces look alike from the front
+local function error_on(y) return from_front{ field = "error", range = { 0, 1e-3 }, cut = { point = { 0, y, 0 }, normal = { 0, -1, 0 } } }.images[1] end
+check.that(error_on(0.3) ~= cut("none", 0.3) and error_on(0.3) ~= error_on(0.6) and error_on(0.3) == error_on(0.4), "a cut shows the errors of cells") -- of rows of cells 0.25 thick
+-- A field of contacts in space is seen on its map beside the scene, too; the bar beside them keeps room for its numbers.
+local function beside(field)
+  local out <const> = drawn(both, { field = field, units = { length = "mm", stress = "MPa" } })
+  local bar <const> = {}
+  for _, t in ipairs(out.texts) do if near(t.size, out.em, 0.01) and svgs.number(t.text) then bar[#bar + 1] = { svgs.number(t.text), t.y } end end
+  table.sort(bar, function(a, b) return a[1] < b[1] end)
+  for k = 2, #bar do check.that(bar[k][2] < bar[k - 1][2] - 0.9 * out.em, "numbers of the bar do not ascend") end
+  check.that(#bar >= 2, "a bar without numbers")
+  return #out.images
+end
+check.equal({ beside "von_mises", beside "pressure" }, { 1, 2 }, "images: of the scene; of the map where it has colours")
 local whole <const>, apart <const> = from_front{ field = "none" }, from_front{ field = "none", explode = 0.5 }
 check.near(apart.unit / whole.unit, 2 / 2.5, 0.005, "the height of bodies drawn apart fills the picture")
 local part <const> = from_front{ field = "none", window = { 0, 0, 0, 1, 1, 1.5 } }
