@@ -88,6 +88,6 @@ local units = { length = "mm", stress = "MPa" }
 dotyk.pictures{ file = "images/socket.png", columns = 2,
                 s:picture{ field = "von_mises", units = units, deform = 1, view = { -0.35, -1, 0.55 }, title = "Cut through the middle" },
                 s:picture{ map = contact, units = units, title = "Pressure, seen from above" },
-                s:picture{ map = contact, field = "slip", units = units, title = "Slip" },
+                s:picture{ map = contact, field = "slip", units = units, title = "Slip since the start" },
                 s:picture{ map = contact, field = "gap", units = units, title = "Gap" } }
 print "images/socket.png"

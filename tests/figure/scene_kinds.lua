@@ -159,6 +159,11 @@ check.equal({ svgs.number(low), svgs.number(high), select(2, svg.text:gsub("|min
 sheet(light, heavy, { "yy", "yy" }, {})
 check.that(content "kinds.svg" == bytes, "drawn again other bytes")
 check.equal(select(2, sheet(light, heavy, { "yy", "xx" }, {}).text:gsub("|min ", "")), 2, "bars")
+-- Where factors of the deformation differ each picture says its own.
+dotyk.pictures{ file = "kinds.svg", width = 178, light:picture{ deform = 1 }, light:picture{ deform = 2 } }
+local scales <const> = {}
+for _, t in ipairs(svgs.read("kinds.svg").texts) do if t.text:find "scale" or t.text:find "deformation" then scales[t.text] = (svgs.box(t)[1] + svgs.box(t)[3]) / 2 < svgs.read("kinds.svg").width / 2 and "left" or "right" end end
+check.equal(scales, { ["true scale"] = "left", ["deformation × 2"] = "right" })
 local lines <const>, column <const> = {}, sheet(light, block(1, 3, -1), { "yy", "yy" }, { columns = 1, size = { 700, 900 } })
 for _, t in ipairs(column.texts) do lines[t.text] = t.y end
 check.that(lines.Other - lines.One < lines.stick - lines.Other - 4 * column.em, "the row of a flat body is as high as that of a tall one")

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <map>
 
+#include "figure/canvas/geometry.hpp"
+
 namespace dotyk::figure {
 namespace {
 
@@ -48,8 +50,6 @@ std::vector<bool> facing(const Contact& contact) {
   return result;
 }
 
-Vec3 sum(const Vec3& a, const Vec3& b, double factor) { return {a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]}; }
-
 /// Where the obstacle is drawn, as each node sees it; see the header.
 std::vector<Vec3> seen_by_nodes(const Contact& contact, const scene::ContactResult& result, const Vec3& move, double factor) {
   const bool plane = std::holds_alternative<contact::RigidPlane>(contact.shape), touches = result.area > 0;
@@ -58,32 +58,37 @@ std::vector<Vec3> seen_by_nodes(const Contact& contact, const scene::ContactResu
   std::vector<Vec3> at;
   for (std::size_t k = 0; k < contact.rows.size(); ++k) {
     const contact::ContactRow& row = contact.rows[k];
-    const Vec3 way = touches ? sum(result.nodes[k].displacement, move, -1) : Vec3{0, 0, 0};
+    const Vec3 way = touches ? plus(result.nodes[k].displacement, move, -1) : Vec3{0, 0, 0};
     const double magnified = std::min(row.gap, most) - mesh::dot(way, row.normal);  // with `way`: along n in place of w·n
-    Vec3 x = sum(result.nodes[k].x, row.normal, row.gap + (factor - 1) * magnified);
-    x = sum(sum(x, move, factor), way, factor - 1);
+    Vec3 x = plus(result.nodes[k].x, row.normal, row.gap + (factor - 1) * magnified);
+    x = plus(plus(x, move, factor), way, factor - 1);
     at.push_back(x);
   }
   return at;
 }
 
-/// The points in the order along the part, by the coordinate across `outward`; a plane's line goes beyond both ends.
+/// The points in the order along the part, its pieces by the coordinate across `outward`; a plane's line goes beyond both ends.
 std::vector<double> polyline(const Contact& contact, const scene::ContactResult& result, const std::vector<Vec3>& at,
                              const std::vector<int>& place, const Vec3& outward, double beyond) {
-  std::vector<std::pair<double, Vec3>> ordered;
-  for (std::size_t k = 0; k < at.size(); ++k) {
-    const Vec3& x = result.nodes[k].x;
-    if (place[k] >= 0) ordered.emplace_back(x[1] * outward[0] - x[0] * outward[1], at[k]);
-  }
-  std::sort(ordered.begin(), ordered.end());
+  const auto across = [&](int k) { return result.nodes[k].x[1] * outward[0] - result.nodes[k].x[0] * outward[1]; };
+  std::vector<std::vector<int>> pieces = chains(contact_facets(contact, result.nodes));
+  if (pieces.empty())  // corners alone
+    for (int k = 0; k < static_cast<int>(at.size()); ++k) pieces.push_back({k});
+  for (std::vector<int>& piece : pieces)
+    if (across(piece.front()) > across(piece.back())) std::ranges::reverse(piece);
+  std::ranges::sort(pieces, {}, [&](const std::vector<int>& piece) { return across(piece.front()); });
+  std::vector<Vec3> ordered;
+  for (const std::vector<int>& piece : pieces)
+    for (const int k : piece)
+      if (place[k] >= 0) ordered.push_back(at[k]);
   if (const auto* plane = std::get_if<contact::RigidPlane>(&contact.shape); plane && !ordered.empty()) {
     const Vec3 along{plane->normal[1], -plane->normal[0], 0};  // the way of the order, as `outward` is −normal
-    const Vec3 first = sum(ordered.front().second, along, -beyond), last = sum(ordered.back().second, along, beyond);
-    ordered.insert(ordered.begin(), {0, first});
-    ordered.emplace_back(0, last);
+    const Vec3 first = plus(ordered.front(), along, -beyond), last = plus(ordered.back(), along, beyond);
+    ordered.insert(ordered.begin(), first);
+    ordered.push_back(last);
   }
   std::vector<double> points;
-  for (const auto& [t, x] : ordered) points.insert(points.end(), x.begin(), x.end());
+  for (const Vec3& x : ordered) points.insert(points.end(), x.begin(), x.end());
   return points;
 }
 
@@ -126,7 +131,7 @@ RigidPicture obstacle_picture(const Contact& contact, const scene::ContactResult
   Vec3 outward{0, 0, 0};
   for (std::size_t k = 0; k < at.size(); ++k) {
     if ((any && !faces[k]) || magnified * contact.rows[k].gap > 0.25 * size) continue;
-    outward = sum(outward, contact.rows[k].normal, 1);
+    outward = plus(outward, contact.rows[k].normal, 1);
     place[k] = static_cast<int>(picture.points.size()) / 3;
     picture.points.insert(picture.points.end(), at[k].begin(), at[k].end());
   }

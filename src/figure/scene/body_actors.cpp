@@ -122,13 +122,16 @@ void body_legend(const Stage& stage, std::vector<LegendEntry>& out) {
                      const std::array<double, 2> dash{0.35 * em, 0.22 * em};
                      c.polyline(b.midline(), std::max(1.0, em / 18), undeformed_colour, plane ? std::span<const double>(dash) : std::span<const double>());
                    }});
-  const auto& bodies = stage.picture.bodies;
-  const bool displaced = std::any_of(bodies.begin(), bodies.end(), [](const BodyPicture& body) { return !body.displacement.empty(); });
-  if (displaced && stage.picture.deformation != 1) out.push_back({"deformation × " + number(stage.picture.deformation), {}});
-  else if (stage.deformation_shows) out.push_back({"true scale", {}});
+  if (displaced(stage.picture) && stage.names_scale && (stage.picture.deformation != 1 || stage.deformation_shows)) out.push_back({scale_name(stage.picture), {}});
 }
 
 }  // namespace
+
+bool displaced(const ScenePicture& picture) {
+  return std::ranges::any_of(picture.bodies, [](const BodyPicture& body) { return !body.displacement.empty(); });
+}
+
+std::string scale_name(const ScenePicture& picture) { return picture.deformation == 1 ? "true scale" : "deformation × " + number(picture.deformation); }
 
 std::vector<int> outline_edges(const BodyPicture& body) {
   return body.facets.empty() ? rim({body.cells, nodes_per_cell(body.shape, 1)}) : body.facets;

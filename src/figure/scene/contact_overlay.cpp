@@ -31,12 +31,26 @@ void draw_strip(Stage& stage, const ContactPicture& contact) {
     if (loaded(i)) stage.over.line(at[i], tops[i], std::max(0.8, stage.em / 30), pressure_line, 0.6);
 }
 
+// Puts the greatest of the candidates in place of that of the chosen ones which is next to it; a single one of it.
+void keep_greatest(std::vector<std::size_t>& chosen, const std::vector<std::size_t>& candidates, const std::vector<Point>& at, const std::function<double(std::size_t)>& value) {
+  if (candidates.empty()) return;
+  const std::size_t greatest = *std::ranges::max_element(candidates, {}, value);
+  if (chosen.empty()) return chosen.push_back(greatest);
+  if (value(greatest) > (1 + 1e-6) * value(*std::ranges::max_element(chosen, {}, value)))
+    *std::ranges::min_element(chosen, {}, [&](std::size_t k) { return length(at[k] - at[greatest]); }) = greatest;
+}
+
 void draw_arrows(Stage& stage, const ContactPicture& contact) {
   if (!(stage.greatest_pressure > 0)) return;
   const std::vector<Point> at = stage.at(contact.nodes);
-  for (const std::size_t i : stage.spaced(at, 0.8 * stage.em)) {
+  const auto pressure = [&](std::size_t i) { return contact.nodes[i].pressure; };
+  std::vector<std::size_t> chosen = stage.spaced(at, 0.8 * stage.em), loaded;
+  std::erase_if(chosen, [&](std::size_t i) { return pressure(i) < 0.02 * stage.greatest_pressure; });
+  for (std::size_t i = 0; i < at.size(); ++i)
+    if (pressure(i) > 0.02 * stage.greatest_pressure && stage.shows(at[i])) loaded.push_back(i);
+  keep_greatest(chosen, loaded, at, pressure);
+  for (const std::size_t i : chosen) {
     const ContactNode& node = contact.nodes[i];
-    if (node.pressure < 0.02 * stage.greatest_pressure) continue;
     stage.over.arrow(pressure_tip(stage, node), at[i], std::max(1.2, stage.em / 14), 0.42 * stage.em, pressure_line, std::max(0.8, stage.em / 30));
   }
 }
@@ -140,7 +154,12 @@ LegendEntry status_entry(const Stage& stage, Status status) {
           }};
 }
 
-std::string at_most(const char* what, double value, const std::string& unit) { return std::string(what) + ", at most " + number(value) + (unit.empty() ? "" : " " + unit); }
+// With the power of ten that a colour bar would have.
+std::string at_most(const char* what, double value, const std::string& unit) {
+  const int exponent = value >= 1e4 ? 3 * static_cast<int>(std::floor(std::log10(value) / 3)) : 0;
+  const std::string factor = exponent ? " × " + power_of_ten(exponent) : "";
+  return std::string(what) + ", at most " + scaled_number(value, exponent) + factor + (unit.empty() ? "" : " " + unit);
+}
 
 // As a strip with an ordinate at each node, as arrows, or as dots on a map. In the plane the greatest is written beside it.
 LegendEntry pressure_entry(const Stage& stage) {
@@ -247,6 +266,10 @@ void draw_labels(Canvas& canvas, const std::vector<Label>& labels) {
   for (const Label& label : labels) {
     if (std::any_of(taken.begin(), taken.end(), [&](const Box& other) { return label.box.overlaps(other); })) continue;
     taken.push_back(label.box);
+    if (label.tip) {
+      const Point nearest{std::clamp(label.tip->x, label.box.left, label.box.right), std::clamp(label.tip->y, label.box.bottom, label.box.top)};
+      if (length(*label.tip - nearest) > 1.5 * label.size) canvas.line(nearest, *label.tip, std::max(0.8, label.size / 24), label.colour);
+    }
     if (label.ground > 0) canvas.box(label.box.grown(label.ground), {255, 255, 255}, 0.8);
     canvas.text(label.box.centre(), label.text,
                 {.size = label.size, .across = Align::middle, .up = Align::middle, .colour = label.colour, .halo = label.ground == 0});
@@ -263,16 +286,10 @@ void draw_shear(Stage& stage, const ContactPicture& contact, const std::vector<P
     if (length(contact.nodes[i].shear) >= least_share * stage.greatest_shear && std::ranges::all_of(arrow(i), [&](Point end) { return stage.shows(end); }))
       rubbing.push_back(i), places.push_back(at[i]);
   std::vector<std::size_t> chosen = choice(places);
-  // The greatest is among them, in place of that next to it.
-  const auto shear = [&](std::size_t k) { return length(contact.nodes[rubbing[k]].shear); };
   std::vector<std::size_t> seen;
   for (std::size_t k = 0; k < rubbing.size(); ++k)
     if (stage.shows(places[k], 0.4 * stage.em)) seen.push_back(k);
-  if (!chosen.empty() && !seen.empty()) {
-    const std::size_t greatest = *std::ranges::max_element(seen, {}, shear);
-    if (shear(greatest) > (1 + 1e-6) * shear(*std::ranges::max_element(chosen, {}, shear)))
-      *std::ranges::min_element(chosen, {}, [&](std::size_t k) { return length(places[k] - places[greatest]); }) = greatest;
-  }
+  keep_greatest(chosen, seen, places, [&](std::size_t k) { return length(contact.nodes[rubbing[k]].shear); });
   for (const std::size_t k : chosen) {
     const auto [tail, head] = arrow(rubbing[k]);
     stage.over.arrow(tail, head, std::max(1.4, stage.em / 11), 0.42 * stage.em, shear_line, std::max(0.9, stage.em / 24));

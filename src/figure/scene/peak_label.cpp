@@ -111,7 +111,7 @@ std::optional<Label> peak_label(const Stage& stage, const ContactPicture& contac
   const Point n = stage.view.direction(peak.normal), size = text_extent(text, letters);
   const Point off{n.x * (size.x / 2 + 0.35 * em), n.y * (size.y / 2 + 0.3 * em)};
   const Box wanted = Box::about(pressure_tip(stage, peak) + off, size);
-  return Label{text, letters, stage.plane ? free_place(stage, wanted, n, within_frame) : wanted, pressure_line, 0, n};
+  return Label{text, letters, stage.plane ? free_place(stage, wanted, n, within_frame) : wanted, pressure_line, 0, n, pressure_tip(stage, peak)};
 }
 
 }  // namespace dotyk::figure

@@ -3,6 +3,7 @@
 #include <list>
 #include <map>
 #include <numeric>
+#include <set>
 
 #include "base/error.hpp"
 #include "base/text.hpp"
@@ -51,6 +52,7 @@ public:
       for (ScenePicture& p : panels_)
         if (!p.field_label.empty()) p.field_range = {scale_->low, scale_->high}, p.field_signed = scale_->diverging;
     share_lengths(panels_);
+    name_scales();
     title_ = fitted(sheet_.title, 1.15 * em_, sheet_.width - em_, true);
     above_ = sheet_.title.empty() ? 0 : 1.9 * em_ + title_.depth();
     heights_.assign(rows(), (sheet_.height - above_) / static_cast<double>(rows()));
@@ -88,6 +90,16 @@ private:
   }
   double bar_width() const { return scale_ ? colour_bar_width(*scale_, field_of(shown()), em_) : 0; }
 
+  // Where the panels' deformation factors differ, each says its own below.
+  void name_scales() {
+    std::set<double> factors;
+    for (const ScenePicture& p : panels_)
+      if (displaced(p)) factors.insert(p.deformation);
+    several_factors_ = factors.size() > 1;
+    for (ScenePicture& p : panels_)
+      if (several_factors_ && displaced(p)) p.caption = scale_name(p) + (p.caption.empty() ? "" : "; ") + p.caption;
+  }
+
   // Returns the pixels that each row's height lacks; below 0: that it does not need.
   std::vector<double> lay_out_panels() {
     const double bar = scale_ ? bar_width() + 0.8 * em_ : 0, spacing = gap * em_;
@@ -104,7 +116,7 @@ private:
       p.file = sheet_.file, p.width = static_cast<int>(wide), p.height = static_cast<int>(heights_[row]);
       p.printed = printed_width(sheet_) * p.width / sheet_.width;
       Stage& stage = stages_.emplace_back(p, Point{std::floor(static_cast<double>(i % columns_) * (wide + spacing)), std::floor(top)});
-      stage.own_bar = !scale_, stage.own_legend = false;
+      stage.own_bar = !scale_, stage.own_legend = false, stage.names_scale = !several_factors_;
       missing[row] = std::max(missing[row], lay_out(stage));
       for (const LegendEntry& entry : stage.entries) add(entry, stage, entries);
     }
@@ -141,6 +153,7 @@ private:
   SceneGrid sheet_;
   std::size_t columns_;
   double em_, above_ = 0;
+  bool several_factors_ = false;
   std::vector<double> heights_;  // of rows
   std::vector<ScenePicture> panels_;
   std::optional<ColourScale> scale_;

@@ -51,6 +51,7 @@ struct Stage {
   Canvas under, over;         // below and above the bodies
   std::vector<Layer> layers;
   bool own_bar = true, own_legend = true;  // else they stand beside, for several scenes
+  bool names_scale = true;                 // the legend names the deformation factor
   std::vector<LegendEntry> entries;        // of the legend
   std::optional<ScenePicture> inset;       // a small picture within this one
   std::vector<Painted> insets;             // as it is painted
@@ -123,6 +124,9 @@ Layer obstacle_layer();
 std::vector<Point> obstacle_line(const View& view, const RigidPicture& rigid);
 // Surfaces, mesh edges and outlines of the bodies.
 Layer body_layer();
+// Whether bodies of the picture are displaced; by what factor, in words.
+bool displaced(const ScenePicture& picture);
+std::string scale_name(const ScenePicture& picture);
 // The outline of a body in the plane, two nodes an edge.
 std::vector<int> outline_edges(const BodyPicture& body);
 // Leaves out what is beyond the picture's cut, of all that is in the renderer, and adds the faces of the cut.
@@ -162,6 +166,7 @@ struct Label {
   Colour colour;
   double ground = 0;  // pixels of pale ground around it; 0: a rim of white instead
   Point direction = {};  // outwards from what it explains
+  std::optional<Point> tip = {};  // a thin line leads there where that is far
 };
 // Those that do not overlap one before them.
 void draw_labels(Canvas& canvas, const std::vector<Label>& labels);

@@ -101,9 +101,12 @@ void draw_support_symbols(Stage& stage, vtkRenderer*) {
 }
 
 void support_legend(const Stage& stage, std::vector<LegendEntry>& out) {
-  if (stage.plane) return;
   for (const Kind& kind : kinds)
-    if (!symbols_of(stage, kind.kind).empty())
+    if (stage.plane && kind.kind == SupportKind::spring && !symbols_of(stage, kind.kind).empty())
+      out.push_back({kind.name, [em = stage.em, kind = kind.kind](Canvas& c, const Box& b) {
+                       symbol(c, kind, {{b.centre().x, b.top - 0.05 * em}, {0, -1}, {1, 0}, std::min(support_size * em, 0.75 * b.height())}, std::max(1.1, em / 18), false);
+                     }});
+    else if (!stage.plane && !symbols_of(stage, kind.kind).empty())
       out.push_back({kind.name, [em = stage.em, marker = kind.marker](Canvas& c, const Box& b) { c.marker(marker, b.centre(), 0.45 * em, symbol_ink); }});
 }
 
