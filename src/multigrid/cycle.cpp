@@ -1,4 +1,5 @@
 #include "multigrid/cycle.hpp"
+#include "multigrid/damping.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -99,8 +100,23 @@ void Cycle::make() {
   factor_on_each(ksp, hierarchy_.matrix(levels() - 1), MAT_SHIFT_POSITIVE_DEFINITE, MATSOLVERPETSC);
 }
 
+void Cycle::damp() {
+  PC pc = nullptr, sor = nullptr;
+  check(KSPGetPC(ksp_, &pc));
+  for (int l = 1; l + 1 < levels(); ++l) {
+    const double omega = damping(hierarchy_.matrix(l));
+    for (const auto side : {PCMGGetSmootherDown, PCMGGetSmootherUp}) {
+      KSP ksp = nullptr;
+      check(side(pc, levels() - 1 - l, &ksp));
+      check(KSPGetPC(ksp, &sor));
+      check(PCSORSetOmega(sor, omega));
+    }
+  }
+}
+
 bool Cycle::set(const Change& change) {
   if (!hierarchy_.set(change)) return false;
+  if (!ranks_.alone()) damp();
   if (!ranks_.all(finest_.set(hierarchy_.matrix(0), change.shared))) return false;
   check(KSPSetOperators(ksp_, hierarchy_.matrix(0), hierarchy_.matrix(0)));
   check(KSPSetUp(ksp_));

@@ -32,6 +32,7 @@ class Cycle {
 
  private:
   void make();
+  void damp();  ///< smoothers, where there are several ranks
 
   const Ranks ranks_;
   Hierarchy hierarchy_;

@@ -1,3 +1,4 @@
+#include "multigrid/damping.hpp"
 #include "multigrid/finest_smoother.hpp"
 
 namespace dotyk::multigrid {
@@ -21,7 +22,7 @@ void factor_on_each(KSP ksp, Mat matrix, MatFactorShiftType shift, MatSolverType
 }
 
 bool FinestSmoother::set(Mat matrix, const std::vector<int>& shared) {
-  matrix_ = matrix, shared_ = shared;
+  matrix_ = matrix, shared_ = shared, omega_ = 1;
   const Ranks ranks = ranks_of(matrix);
   any_ = !ranks.all(shared_.empty());
   if (!any_) return true;
@@ -60,10 +61,10 @@ PetscErrorCode FinestSmoother::smooth(PC shell, Vec b, Vec x, Vec, PetscReal, Pe
   const auto [self, before] = *static_cast<Side*>(context);
   *count = 1, *reason = PCRICHARDSON_CONVERGED_ITS;
   try {
-    if (before) check(MatSOR(self->matrix_, b, 1, static_cast<MatSORType>(SOR_LOCAL_FORWARD_SWEEP | (from_zero ? SOR_ZERO_INITIAL_GUESS : 0)), 0, 1, 1, x));
+    if (before) check(MatSOR(self->matrix_, b, self->omega_, static_cast<MatSORType>(SOR_LOCAL_FORWARD_SWEEP | (from_zero ? SOR_ZERO_INITIAL_GUESS : 0)), 0, 1, 1, x));
     else if (from_zero) check(VecSet(x, 0));
     self->solve_shared(b, x);
-    if (!before) check(MatSOR(self->matrix_, b, 1, SOR_LOCAL_BACKWARD_SWEEP, 0, 1, 1, x));
+    if (!before) check(MatSOR(self->matrix_, b, self->omega_, SOR_LOCAL_BACKWARD_SWEEP, 0, 1, 1, x));
   } catch (const std::exception& error) {
     SETERRQ(PETSC_COMM_SELF, PETSC_ERR_LIB, "%s", error.what());
   }

@@ -29,6 +29,7 @@ class FinestSmoother {
   };
   Side sides_[2] = {{this, false}, {this, true}};
   Mat matrix_ = nullptr;
+  double omega_ = 1;
   bool any_ = false;         ///< shared rows, on any rank
   std::vector<int> shared_;  ///< counted from the rank's first row
   OwnedMat rows_, block_;    ///< of the matrix, at the shared unknowns

@@ -45,6 +45,19 @@ if not told("cube(4)"):find("libpetsc", 1, true) then
     local x, y = 0, 0
     for i = 0, 4 do for j = 0, 4 do local ux, uy = s:displacement(b, i / 4, j / 4, 0.5) x, y = x + ux / 25, y + uy / 25 end end
     print(("|%.12g|%.3g|%.3g|"):format(s.energy, x, y)) ]]
+  -- Small pieces, most of whose rows are beside other ranks' and coupled by the rows of the glue: sweeps of each rank alone would diverge.
+  local glued <const> = [[ local function block(name, from, to, n)
+      return dotyk.body{ name = name, material = dotyk.material{ E = 1000, nu = 0.3 }, mesh = dotyk.mesh.box{ from = from, to = to, cells = {n, n, 8} } }
+    end
+    local lower, upper = block("lower", {0, 0, 0}, {1, 1, 0.5}, 16), block("upper", {0, 0, 0.5}, {1, 1, 1}, 15)
+    lower:part"bottom":fix()
+    upper:part"top":displace{ x = 0, y = 0, z = -0.01 }
+    local scene = dotyk.scene{ lower, upper }
+    scene:glue{ upper:part"bottom", lower:part"top" }
+    print(("|%.12g|"):format(dotyk.solver.multigrid{}:solve(scene).energy)) ]]
+  local energies <const> = {}
+  for _, ranks in ipairs{ 1, 4 } do energies[ranks] = tonumber(told("dotyk.ranks(" .. ranks .. ")" .. glued):match "|(.-)|") end
+  check.near(energies[4], energies[1], 1e-9 * energies[1])
   for _, ranks in ipairs{ 1, 2 } do
     local text <const> = told("dotyk.ranks(" .. ranks .. ")" .. free)
     local energy <const>, x <const>, y <const> = text:match "|(.-)|(.-)|(.-)|"
