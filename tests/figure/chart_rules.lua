@@ -54,6 +54,21 @@ check.that(broad.width > 2 * plain.width and math.abs(over[1].width - plain.widt
 check.that(math.abs(broad.left - plain.left) < 5 and broad.right < plain.left + 0.6 * (plain.right - plain.left), "until they part")
 local three <const> = lines_of(drawn{ series = { line("a", same), line("b", same), line("c", same) } }, blue)
 check.that(three[2].width > broad.width)
+-- At the edge of the plot neither a line nor what is broader of it reaches beyond the frame.
+local zero <const> = drawn{ y_range = { 0, 1 }, series = { line("a", { 0, 0, 0, 1, 2 }), line("b", { 0, 0, 0, 0, 1 }), line("c", { 0, 0, 0, 0, 0 }) } }
+local function frame_of(it) -- the last closed line that is drawn in the colour of axes
+  for k = #it.lines, 1, -1 do if it.lines[k].stroke == "#1e1e1e" and #it.lines[k].points == 4 then return it.lines[k] end end
+end
+local frame <const> = frame_of(zero)
+for _, colour in ipairs{ blue, orange, "#009e73" } do
+  local broadest = 0
+  for _, mark in ipairs(zero:filled(colour)) do
+    check.that(mark.bottom <= frame.bottom + 0.1 and mark.top >= frame.top - 0.1, "cut off")
+    broadest = math.max(broadest, mark.bottom - mark.top)
+  end
+  check.that(broadest > 1, "drawn")
+  for _, mark in ipairs(lines_of(zero, colour)) do check.that(mark.bottom + mark.width / 2 <= frame.bottom + 0.1, "inside") end
+end
 -- Beneath dashes nothing is hidden; markers beneath markers are larger.
 check.equal(#lines_of(drawn{ series = { line("a", same), { x = x, y = same, reference = true } } }, blue), 2)
 
