@@ -99,6 +99,32 @@ refused(function() dotyk.chart{ file = "rules.svg", log = "x", series = { curve 
 refused(function() dotyk.chart{ file = "rules.svg", series = { curve }, notes = { { x = 1, y = 1 } } } end, "missing key 'text'")
 refused(function() dotyk.chart{ file = "rules.svg", notes = {}, panels = { { series = { curve } } } } end, "'notes' beside 'panels'")
 
+-- 6. A guide stands beside a stretch of its own slope, higher than a letter, and none is left out.
+local falls <const>, rises <const> = {}, {}
+for k = 0, 12 do falls[#falls + 1], rises[#rises + 1] = 10^(-k), 10^(-math.min(k, 12 - k)) end
+local decades <const> = {}
+for k = 0, 12 do decades[#decades + 1] = 10^k end
+local guided <const> = drawn{ log = "xy", slopes = { 1, -1 }, series = { { x = decades, y = rises, style = "line" }, { x = decades, y = falls, style = "line" } } }
+local function guides_of(it) return it:filled "#ebebeb" end
+local up <const>, down <const> = table.unpack(guides_of(guided))
+local valley <const> = guided:text "10⁶".x + 15
+check.that(up.left > valley, "1 beside the rising branch")
+local slope <const> = lines_of(guided, orange)[1]
+local at <const> = (down.left + down.right) / 2 - slope.left
+check.that(math.abs(slope.top + at / (slope.right - slope.left) * (slope.bottom - slope.top) - (down.top + down.bottom) / 2) < 260, "-1 beside the falling one")
+local h <const> = { 1, 2, 4, 8 }
+local function order(name, factor, p)
+  local it <const> = { name = name, x = h, y = {} }
+  for k, step in ipairs(h) do it.y[k] = factor * step^p end
+  return it
+end
+local orders <const> = drawn{ log = "xy", slopes = { 1, 2 }, series = { order("a", 1, 1), order("b", 0.3, 1), order("c", 1e-3, 2), order("d", 1e-5, 2) } }
+local one_, two_ <const> = table.unpack(guides_of(orders))
+check.that(one_.bottom - one_.top > 15 and two_.bottom - two_.top > 15)
+check.that(one_.bottom < lines_of(orders, "#009e73")[1].bottom and two_.top > lines_of(orders, "#009e73")[1].top, "beside their own curves")
+local tight <const> = drawn{ size = { 1000, 500 }, log = "xy", slopes = { 2, 4 }, series = { order("a", 0.1, 1), order("b", 5e-3, 2), order("c", 5e-4, 2), order("d", 2e-7, 4) } }
+check.equal(#guides_of(tight), 2)
+
 -- Equal pictures give equal bytes.
 local content <const> = require "bytes_of"
 for _, options in ipairs{ { series = { line("a", same), line("b", leaves), level("c", 1), level("d", 2) } }, { polar = true, series = { line("a", same) }, notes = { { x = 3, y = 3, text = "three" } } } } do
