@@ -125,6 +125,21 @@ check.that(one_.bottom < lines_of(orders, "#009e73")[1].bottom and two_.top > li
 local tight <const> = drawn{ size = { 1000, 500 }, log = "xy", slopes = { 2, 4 }, series = { order("a", 0.1, 1), order("b", 5e-3, 2), order("c", 5e-4, 2), order("d", 2e-7, 4) } }
 check.equal(#guides_of(tight), 2)
 
+-- 7. Panels have one legend with each entry once; where looks contradict each other, one legend for neighbours that agree.
+local function count(it, words)
+  local n = 0
+  while it:text(words, n + 1) do n = n + 1 end
+  return n
+end
+local function points(name, y) return { name = name, x = x, y = y, style = "points" } end
+local ab <const> = { series = { line("a", same), line("b", leaves) } }
+local all <const> = drawn{ size = { 2000, 800 }, columns = 3, panels = { ab, ab, { series = { points("c", same), points("d", leaves) } } } }
+for _, name in ipairs{ "a", "b", "c", "d" } do check.equal(count(all, name), 1, name) end
+check.that(math.abs(all:text "a".y - all:text "d".y) < 0.1, "in one row")
+local some <const> = drawn{ size = { 2000, 1200 }, columns = 2, panels = { ab, ab, ab, { series = { line("c", same) } } } }
+check.equal({ count(some, "a"), count(some, "b"), count(some, "c") }, { 1, 1, 1 })
+check.that(some:text "c".x > 1000 and some:text "c".y > 600 and some:text "a".x < 1000, "each in its own panel")
+
 -- Equal pictures give equal bytes.
 local content <const> = require "bytes_of"
 for _, options in ipairs{ { series = { line("a", same), line("b", leaves), level("c", 1), level("d", 2) } }, { polar = true, series = { line("a", same) }, notes = { { x = 3, y = 3, text = "three" } } } } do

@@ -20,21 +20,6 @@ std::array<double, 2> common_x(const std::vector<ChartPicture>& panels) {
   return range;
 }
 
-// The panel whose legend serves all others that have one, the longest; none where some have other entries or such as depend on the
-// room, or only one has a legend.
-const ChartPicture* common_legend(const std::vector<ChartPicture>& panels) {
-  const ChartPicture* longest = nullptr;
-  double most = 0;
-  std::ptrdiff_t with = 0;
-  for (const ChartPicture& panel : panels) {
-    const double height = chart_legend(panel, 1, 0).height();
-    with += height > 0;
-    if (height > most) most = height, longest = &panel;
-  }
-  const bool serves = std::ranges::all_of(panels, [&](const ChartPicture& panel) { return !names_beside(panel) && (!longest || legend_serves(*longest, panel)); });
-  return serves && with > 1 ? longest : nullptr;
-}
-
 // Of all maps that show the same.
 void share_colours(std::vector<ChartPicture>& panels) {
   for (ChartPicture& panel : panels) {
@@ -60,7 +45,7 @@ public:
       panels_[i].width = static_cast<int>(width_), panels_[i].height = picture.height / static_cast<int>(rows());
       if (picture.shared_x) panels_[i].x_range = common_x(picture.panels);
       frames_.push_back({em, {}, !picture.shared_x || i + columns_ >= panels_.size()});
-      frames_.back().legend = legends;
+      frames_.back().legend = legends && !legend_before(i);
     }
   }
 
@@ -87,6 +72,14 @@ public:
   }
 
 private:
+  // Is there a legend that serves this panel beside it on the left, or above it?
+  bool legend_before(std::size_t i) {
+    legend_of_.push_back(i);
+    for (const auto& [there, neighbour] : {std::pair{column(i) > 0, i - 1}, {row(i) > 0, i - columns_}})
+      if (there && legend_serves(panels_[legend_of_[neighbour]], panels_[i])) return legend_of_[i] = legend_of_[neighbour], true;
+    return false;
+  }
+
   std::size_t rows() const { return (panels_.size() + columns_ - 1) / columns_; }
   std::size_t row(std::size_t i) const { return i / columns_; }
   std::size_t column(std::size_t i) const { return i % columns_; }
@@ -105,6 +98,7 @@ private:
   double width_;  // of a panel
   std::vector<ChartPicture> panels_;
   std::vector<ChartFrame> frames_;
+  std::vector<std::size_t> legend_of_;  // the panel whose legend serves each
   std::vector<double> left_, right_, above_, below_;
 };
 
@@ -114,10 +108,9 @@ void render(const ChartColumn& given) {
   ChartColumn picture = given;
   const double em = letters(picture);
   const FittedText title = fitted(picture.title, 1.15 * em, picture.width - em, true);
-  const ChartPicture* common = common_legend(picture.panels);
-  const Legend legend = common ? chart_legend(*common, em, picture.width - em) : Legend({}, em);
+  const Legend legend = common_legend(picture.panels, em, picture.width - em);
   const double above = (picture.title.empty() ? 0 : 1.9 * em + title.depth()) + legend.height();
-  Grid grid(picture, em, !common);
+  Grid grid(picture, em, legend.empty());
   // The picture grows where plots would be too low to be legible.
   const double needed = grid.fill(picture.height - above, least_plot(picture));
   picture.height = std::clamp(static_cast<int>(std::ceil(needed + above)), picture.height, std::max(picture.height, greatest_side));
