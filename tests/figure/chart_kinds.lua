@@ -101,6 +101,16 @@ check.that(polar:text "1" and polar:text "2" and not polar:text "0")
 check.that(polar.least >= 7, polar.least)
 local sectors <const> = drawn{ polar = true, map = { x = { 0, 90, 180, 270 }, y = { 1, 2 }, values = { { 1, 1, 1, 1 }, { 2, 2, 1, 1 } }, names = { "in", "out" } } }
 check.equal(#sectors:filled "#d6601e", 3)
+-- A small circle has names of the axes alone, and one that would not be legible is refused.
+local ring_of <const> = { name = "ring", x = { 0, 90, 180, 270, 360 }, y = { 2, 2, 2, 2, 2 } }
+local round <const> = { polar = true, y = "force", series = { ring_of } }
+local small <const> = drawn{ size = { 1000, 600 }, columns = 2, panels = { round, round } }
+check.that(small:text "90°" and small:text "270°" and not small:text "60°" and small:text "1" and small:text "2")
+wrong({ columns = 3, size = { 1000, 600 }, panels = { round, round, round } }, "2 mm are left for a plot of kinds.svg, at least 15 are needed: give fewer 'columns' or a 'width' of")
+wrong({ polar = true, width = 30, series = { ring_of } }, "for the plot of kinds.svg, at least 15 are needed: give a 'width' of 3")
+local wide <const> = { y = "force", series = { { x = { 1, 2 }, y = { 1000, 2000 } } } }
+wrong({ columns = 3, size = { 1000, 600 }, panels = { wide, wide, wide } }, "10 mm are left for a plot of kinds.svg")
+drawn{ width = 101, columns = 3, panels = { wide, wide, wide } }
 wrong({ polar = true, log = "y", series = { curve } }, "'polar' together with 'log'")
 wrong({ polar = true, y_range = { 0, 1 }, series = { curve } }, "'polar' together with 'y_range'")
 wrong({ polar = true, series = { { name = "a", x = { 1 }, y = { -1 } } } }, 'series "a": the radius -1 is negative')

@@ -4,6 +4,7 @@
 #include "figure/canvas/sheet.hpp"
 #include "figure/chart/chart.hpp"
 #include "figure/chart/chart_look.hpp"
+#include "figure/chart/chart_polar.hpp"
 #include "figure/door/drawing.hpp"
 
 namespace dotyk::figure {
@@ -62,13 +63,15 @@ public:
     return sum(above_) + sum(below_) + plots * static_cast<double>(rows());
   }
 
-  // `top`: of the first row, above the lower edge of the picture.
-  void draw(Canvas& canvas, double top) const {
+  // `top`: of the first row, above the lower edge of the picture. Returns the pixels across the narrowest plot.
+  double draw(Canvas& canvas, double top) const {
+    double narrowest = INFINITY;
     for (std::size_t i = 0; i < panels_.size(); ++i) {
       if (column(i) == 0) top -= panels_[i].height;
       canvas.origin({width_ * static_cast<double>(column(i)), top});
-      draw_on(canvas, panels_[i], frames_[i]);
+      narrowest = std::min(narrowest, draw_on(canvas, panels_[i], frames_[i]).plot);
     }
+    return narrowest;
   }
 
 private:
@@ -112,13 +115,14 @@ void render(const ChartColumn& given) {
   const double above = (picture.title.empty() ? 0 : 1.9 * em + title.depth()) + legend.height();
   Grid grid(picture, em, legend.empty());
   // The picture grows where plots would be too low to be legible.
-  const double needed = grid.fill(picture.height - above, least_plot(picture));
+  const bool polar = std::ranges::any_of(picture.panels, &ChartPicture::polar);
+  const double needed = grid.fill(picture.height - above, least_plot(picture) + (polar ? 2 * polar_rim(em).y : 0));
   picture.height = std::clamp(static_cast<int>(std::ceil(needed + above)), picture.height, std::max(picture.height, greatest_side));
 
   Canvas canvas;
   canvas.text({picture.width / 2.0, picture.height - 0.6 * em}, title, title_style());
   legend.draw(canvas, {(picture.width - legend.width()) / 2, picture.height - above}, false);
-  grid.draw(canvas, picture.height - above);
+  require_width(picture, grid.draw(canvas, picture.height - above), picture.columns);
   write_canvas(canvas, picture);
 }
 

@@ -3,6 +3,8 @@
 // that stand off each other nor slope guides.
 #include <optional>
 
+#include "base/error.hpp"
+#include "base/text.hpp"
 #include "figure/canvas/paper.hpp"
 #include "figure/canvas/sheet.hpp"
 #include "figure/chart/chart_categories.hpp"
@@ -50,7 +52,7 @@ public:
     if (picture.polar) draw_polar_labels(canvas_, axes, occupied_);
   }
 
-  ChartMargins margins() const { return {room_.left, picture_.width - room_.right, room_.bottom, picture_.height - room_.top}; }
+  ChartMargins margins() const { return {room_.left, picture_.width - room_.right, room_.bottom, picture_.height - room_.top - spare_, inner_width()}; }
 
 private:
   // Margins from the widths of what stands in them.
@@ -120,10 +122,15 @@ private:
 
   bool equal() const { return !axes_.left.x.log && !axes_.left.y.log && picture_.x_range && picture_.x_range == picture_.y_range; }
 
+  // What names of angles leave.
+  Point rim() const { return picture_.polar ? polar_rim(em_) : Point{}; }
+  double inner_width() const { return room_.width() - 2 * rim().x; }
+  double inner_height() const { return room_.height() - 2 * rim().y; }
+
   void make_square() {
-    const double side = std::min(room_.width(), room_.height());
-    indent_ = (room_.width() - side) / 2;
-    room_ = {room_.left + indent_, room_.bottom, room_.right - indent_, room_.bottom + side};
+    const double side = std::min(inner_width(), inner_height());
+    indent_ = (inner_width() - side) / 2, spare_ = inner_height() - side;
+    room_ = {room_.left + indent_, room_.bottom, room_.right - indent_, room_.bottom + side + 2 * rim().y};
   }
 
   // The parts of a broken axis below and above its break have the same scale, unless one of them would then be very low.
@@ -266,13 +273,20 @@ private:
   Legend legend_;
   bool right_ = false;  // is there a y axis on the right?
   Box& room_ = axes_.left.room;
-  double indent_ = 0;  // of a plot narrower than it might be
+  double indent_ = 0, spare_ = 0;  // of a plot narrower or lower than it might be
   std::vector<PlotText> texts_;
   SeriesSet crowded_;  // reference curves whose names have no place in the plot
   Occupied occupied_;
 };
 
 }  // namespace
+
+void require_width(const Sheet& sheet, double plot, int columns) {
+  constexpr double kLeast = 15;  // mm
+  const double mm = printed_width(sheet) / sheet.width, needed = std::ceil(printed_width(sheet) + columns * (kLeast - mm * plot));
+  if (mm * plot < kLeast - 0.05)
+    throw InputError(text("beside its labels ", std::max(0.0, std::floor(mm * plot)), " mm are left for ", columns > 1 ? "a" : "the", " plot of ", sheet.file, ", at least ", kLeast, " are needed: give ", columns > 1 ? "fewer 'columns' or " : "", "a 'width' of ", needed, " mm"));
+}
 
 ChartMargins draw_on(Canvas& canvas, const ChartPicture& picture, const ChartFrame& frame) { return Chart(picture, canvas, frame).margins(); }
 
@@ -283,10 +297,10 @@ void render(const ChartPicture& picture) {
   Canvas tried;
   const ChartMargins margins = draw_on(tried, picture, frame);
   constexpr double kShare = 0.45;  // of the height
-  const double least = std::max(least_plot(picture), kShare * picture.height);
+  const double least = std::max(least_plot(picture), kShare * picture.height) + (picture.polar ? 2 * polar_rim(frame.em).y : 0);
   grown.height = std::clamp(static_cast<int>(margins.above + margins.below + least), picture.height, std::max(picture.height, greatest_side));
   Canvas canvas;
-  draw_on(canvas, grown, frame);
+  require_width(picture, draw_on(canvas, grown, frame).plot, 1);
   write_canvas(canvas, grown);
 }
 
