@@ -101,6 +101,12 @@ check.that(polar:text "1" and polar:text "2" and not polar:text "0")
 check.that(polar.least >= 7, polar.least)
 local sectors <const> = drawn{ polar = true, map = { x = { 0, 90, 180, 270 }, y = { 1, 2 }, values = { { 1, 1, 1, 1 }, { 2, 2, 1, 1 } }, names = { "in", "out" } } }
 check.equal(#sectors:filled "#d6601e", 3)
+-- Cells end at the first and last radius, and at the first and last angle unless they go all around.
+local quarter <const> = drawn{ polar = true, map = { x = { 0, 30, 60, 90 }, y = { 0, 45, 90 }, values = { { 1, 1, 1, 1 }, { 1, 1, 1, 1 }, { 2, 2, 2, 2 } }, names = { "in", "out" } } }
+local rim_of <const> = quarter:filled "#d6601e"
+local pole <const> = { x = (quarter:text "90°".x + quarter:text "270°".x) / 2, y = quarter:text "0°".y }
+check.that(rim_of[1].bottom < pole.y and rim_of[4].left > quarter:text "90°".x, "none below 0°, none beyond 90°")
+check.that(quarter:text "80" and not quarter:text "100")
 -- A small circle has names of the axes alone, and one that would not be legible is refused.
 local ring_of <const> = { name = "ring", x = { 0, 90, 180, 270, 360 }, y = { 2, 2, 2, 2, 2 } }
 local round <const> = { polar = true, y = "force", series = { ring_of } }

@@ -65,8 +65,9 @@ std::optional<std::array<double, 2>> fixed_range(const ChartPicture& chart, Side
   if (x && chart.polar) return std::array{0.0, 360.0};
   if (x && !chart.categories.empty()) return std::array{0.5, static_cast<double>(chart.categories.size()) + 0.5};
   if (chart.map && side != Side::right) {
+    if (chart.polar) return std::array{0.0, polar_borders(chart.map->y, false).back()};
     const std::vector<double> borders = cell_borders(x ? chart.map->x : chart.map->y, x ? chart.log_x : chart.log_y);
-    return std::array{chart.polar ? 0 : borders.front(), borders.back()};
+    return std::array{borders.front(), borders.back()};
   }
   return x ? chart.x_range : side == Side::left ? chart.y_range : std::nullopt;
 }
