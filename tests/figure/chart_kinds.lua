@@ -25,7 +25,13 @@ local two <const> = five:text "interior"
 check.that(two and five:text "point" and two.y < five:text "point".y, "in two lines")
 local many <const> = drawn{ categories = { "interior_point", "projected_cg", "uzawa_pdas", "active_set", "multigrid", "coulomb_loop", "feti" }, series = { curve } }
 check.that(many:text "interior_point".upright and many:text "feti".upright)
-for _, it in ipairs{ few, five, many } do check.that(it.least >= 7, it.least) end
+local function names_of(n) local out <const> = {} for k = 1, n do out[k] = "category " .. k end return out end
+-- Names have no end cut off: where they are long the picture grows.
+local long <const> = { "incomplete_factorisation_with_a_long_name", "a name of several words that has three lines", "c", "d", "e", "f" }
+local grown <const> = drawn{ categories = long, series = { curve } }
+check.that(grown:text(long[1]).upright and grown:text(long[1]).y > 750 and grown:text "a name of several".upright, "whole")
+wrong({ size = { 1000, 750 }, categories = names_of(40), series = { curve } }, "categories meet even upright")
+for _, it in ipairs{ few, five, many, grown } do check.that(it.least >= 7, it.least) end
 wrong({ categories = { "a" }, log = "x", series = { curve } }, "'categories' together with a logarithmic x axis or 'x_range'")
 wrong({ categories = { "a" }, x_range = { 0, 2 }, series = { curve } }, "'categories'")
 wrong({ x = "x", panels = { { categories = { "a" }, series = { curve } }, { series = { curve } } } }, "have the same categories")

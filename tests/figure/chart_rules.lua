@@ -95,6 +95,23 @@ check.equal(#leaders, 1)
 local here <const>, leader <const> = noted:text "here", leaders[1]
 check.that(math.abs(leader[2].y - here.y) < 40 and leader[2].x > here.x - 10 and leader[2].x < here.x + 80, "to the text")
 check.that(noted.least >= 7)
+-- Many have places away from each other; the picture grows for them, or is refused.
+local function notes_at(x, y, n)
+  local out <const> = {}
+  for k = 1, n do out[k] = { x = x, y = y, text = "a note of some length, number " .. k } end
+  return out
+end
+local full <const> = drawn{ series = { curve }, notes = notes_at(2, 1.2, 16) }
+local places <const> = {}
+for _, it in ipairs(full.texts) do
+  if it.words:find "number" then
+    for _, other in ipairs(places) do check.that(math.abs(other.y - it.y) > 20 or math.abs(other.x - it.x) > 200, it.words .. " lies upon another") end
+    places[#places + 1] = it
+  end
+end
+check.equal(#places, 16)
+refused(function() dotyk.chart{ file = "rules.svg", series = { curve }, notes = notes_at(2, 1.2, 60) } end, 'the note "a note of some length, number 60" has no free place in its plot')
+refused(function() dotyk.chart{ file = "rules.svg", series = { curve }, notes = notes_at(20, 1.2, 1) } end, 'number 1" is at (20, 1.2), but the axes go from (0.9, ')
 refused(function() dotyk.chart{ file = "rules.svg", log = "x", series = { curve }, notes = { { x = 0, y = 1, text = "zero" } } } end, 'the note "zero" has no place on a logarithmic axis')
 refused(function() dotyk.chart{ file = "rules.svg", series = { curve }, notes = { { x = 1, y = 1 } } } end, "missing key 'text'")
 refused(function() dotyk.chart{ file = "rules.svg", notes = {}, panels = { { series = { curve } } } } end, "'notes' beside 'panels'")

@@ -63,15 +63,13 @@ public:
     return sum(above_) + sum(below_) + plots * static_cast<double>(rows());
   }
 
-  // `top`: of the first row, above the lower edge of the picture. Returns the pixels across the narrowest plot.
-  double draw(Canvas& canvas, double top) const {
-    double narrowest = INFINITY;
+  // `top`: of the first row, above the lower edge of the picture.
+  void draw(Canvas& canvas, double top, const Sheet& sheet) const {
     for (std::size_t i = 0; i < panels_.size(); ++i) {
       if (column(i) == 0) top -= panels_[i].height;
       canvas.origin({width_ * static_cast<double>(column(i)), top});
-      narrowest = std::min(narrowest, draw_on(canvas, panels_[i], frames_[i]).plot);
+      require_room(sheet, draw_on(canvas, panels_[i], frames_[i]), static_cast<int>(columns_));
     }
-    return narrowest;
   }
 
 private:
@@ -122,7 +120,7 @@ void render(const ChartColumn& given) {
   Canvas canvas;
   canvas.text({picture.width / 2.0, picture.height - 0.6 * em}, title, title_style());
   legend.draw(canvas, {(picture.width - legend.width()) / 2, picture.height - above}, false);
-  require_width(picture, grid.draw(canvas, picture.height - above), picture.columns);
+  grid.draw(canvas, picture.height - above, picture);
   write_canvas(canvas, picture);
 }
 

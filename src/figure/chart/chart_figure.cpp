@@ -52,7 +52,7 @@ public:
     if (picture.polar) draw_polar_labels(canvas_, axes, occupied_);
   }
 
-  ChartMargins margins() const { return {room_.left, picture_.width - room_.right, room_.bottom, picture_.height - room_.top - spare_, inner_width()}; }
+  ChartMargins margins() const { return {room_.left, picture_.width - room_.right, room_.bottom, picture_.height - room_.top - spare_, inner_width(), crowded_note_}; }
 
 private:
   // Margins from the widths of what stands in them.
@@ -117,7 +117,7 @@ private:
 
   CategoryNames category_names() const {
     const double width = room_.width() > 1 ? room_.width() : picture_.width - room_.left;
-    return {picture_.categories, em_, width / static_cast<double>(picture_.categories.size()), static_cast<double>(picture_.height)};
+    return {picture_.categories, em_, width / static_cast<double>(picture_.categories.size())};
   }
 
   bool equal() const { return !axes_.left.x.log && !axes_.left.y.log && picture_.x_range && picture_.x_range == picture_.y_range; }
@@ -146,7 +146,7 @@ private:
     occupied_ = {};
     series_.occupy(occupied_);
     if (picture_.polar) occupy_polar(axes_.left, occupied_);
-    texts_ = plot_texts(picture_, axes_, occupied_, crowded_);
+    texts_ = plot_texts(picture_, axes_, occupied_, crowded_, crowded_note_);
   }
 
   // The lower left of the legend: at a free place among the curves; where there is none in rows above them, and all is placed anew.
@@ -276,16 +276,18 @@ private:
   double indent_ = 0, spare_ = 0;  // of a plot narrower or lower than it might be
   std::vector<PlotText> texts_;
   SeriesSet crowded_;  // reference curves whose names have no place in the plot
+  const ChartNote* crowded_note_ = nullptr;
   Occupied occupied_;
 };
 
 }  // namespace
 
-void require_width(const Sheet& sheet, double plot, int columns) {
+void require_room(const Sheet& sheet, const ChartMargins& margins, int columns) {
+  if (margins.crowded) throw InputError("the note \"" + margins.crowded->text + "\" has no free place in its plot: give fewer words, or a greater 'size'");
   constexpr double kLeast = 15;  // mm
-  const double mm = printed_width(sheet) / sheet.width, needed = std::ceil(printed_width(sheet) + columns * (kLeast - mm * plot));
-  if (mm * plot < kLeast - 0.05)
-    throw InputError(text("beside its labels ", std::max(0.0, std::floor(mm * plot)), " mm are left for ", columns > 1 ? "a" : "the", " plot of ", sheet.file, ", at least ", kLeast, " are needed: give ", columns > 1 ? "fewer 'columns' or " : "", "a 'width' of ", needed, " mm"));
+  const double mm = printed_width(sheet) / sheet.width, needed = std::ceil(printed_width(sheet) + columns * (kLeast - mm * margins.plot));
+  if (mm * margins.plot < kLeast - 0.05)
+    throw InputError(text("beside its labels ", std::max(0.0, std::floor(mm * margins.plot)), " mm are left for ", columns > 1 ? "a" : "the", " plot of ", sheet.file, ", at least ", kLeast, " are needed: give ", columns > 1 ? "fewer 'columns' or " : "", "a 'width' of ", needed, " mm"));
 }
 
 ChartMargins draw_on(Canvas& canvas, const ChartPicture& picture, const ChartFrame& frame) { return Chart(picture, canvas, frame).margins(); }
@@ -299,8 +301,10 @@ void render(const ChartPicture& picture) {
   constexpr double kShare = 0.45;  // of the height
   const double least = std::max(least_plot(picture), kShare * picture.height) + (picture.polar ? 2 * polar_rim(frame.em).y : 0);
   grown.height = std::clamp(static_cast<int>(margins.above + margins.below + least), picture.height, std::max(picture.height, greatest_side));
+  // So may notes.
+  for (int tries = 0; tries < 4 && draw_on(tried, grown, frame).crowded; ++tries) grown.height = std::clamp(grown.height * 6 / 5, grown.height, std::max(grown.height, greatest_side));
   Canvas canvas;
-  require_width(picture, draw_on(canvas, grown, frame).plot, 1);
+  require_room(picture, draw_on(canvas, grown, frame), 1);
   write_canvas(canvas, grown);
 }
 
