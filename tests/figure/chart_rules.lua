@@ -157,6 +157,11 @@ local some <const> = drawn{ size = { 2000, 1200 }, columns = 2, panels = { ab, a
 check.equal({ count(some, "a"), count(some, "b"), count(some, "c") }, { 1, 1, 1 })
 check.that(some:text "c".x > 1000 and some:text "c".y > 600 and some:text "a".x < 1000, "each in its own panel")
 
+-- 8. Decades all have labels where there is room, and within less than a decade labels are even.
+local logs <const> = drawn{ size = { 1000, 450 }, log = "xy", series = { { x = { 0.08, 0.1, 0.2, 0.25 }, y = { 1, 10, 1e4, 1e5 } } } }
+for _, label in ipairs{ "10⁰", "10¹", "10²", "10³", "10⁴", "10⁵", "0.10", "0.15", "0.20", "0.25" } do check.that(logs:text(label), label) end
+check.that(not logs:text "0.08" and logs:text "10⁰".y - logs:text "10¹".y > 40, "apart")
+
 -- Equal pictures give equal bytes.
 local content <const> = require "bytes_of"
 for _, options in ipairs{ { series = { line("a", same), line("b", leaves), level("c", 1), level("d", 2) } }, { polar = true, series = { line("a", same) }, notes = { { x = 3, y = 3, text = "three" } } } } do
