@@ -162,6 +162,14 @@ local logs <const> = drawn{ size = { 1000, 450 }, log = "xy", series = { { x = {
 for _, label in ipairs{ "10⁰", "10¹", "10²", "10³", "10⁴", "10⁵", "0.10", "0.15", "0.20", "0.25" } do check.that(logs:text(label), label) end
 check.that(not logs:text "0.08" and logs:text "10⁰".y - logs:text "10¹".y > 40, "apart")
 
+-- 9. A legend above the plot has the fewest rows, in columns.
+local wide <const> = { line("PDAS", { 1, 2, 3, 4, 5 }), line("PDAS, space", { 5, 4, 3, 2, 1 }), line("given", { 1, 5, 1, 5, 1 }), line("Coulomb", { 5, 1, 5, 1, 5 }), line("Coulomb, space", { 3, 3, 3, 3, 3 }) }
+for k = 1, 20 do wide[#wide + 1] = { x = { 1 + k / 5, 1 + k / 5 }, y = { 1, 5 }, style = "line" } end
+local above <const> = drawn{ series = wide }
+for k, other in ipairs{ "PDAS, space", "given" } do check.that(math.abs(above:text "PDAS".y - above:text(other).y) < 0.1, other) end
+check.that(math.abs(above:text "PDAS".x - above:text "Coulomb".x) < 0.1 and above:text "Coulomb".y > above:text "PDAS".y, "below each other")
+check.that(math.abs(above:text "Coulomb".y - above:text "Coulomb, space".y) < 0.1)
+
 -- Equal pictures give equal bytes.
 local content <const> = require "bytes_of"
 for _, options in ipairs{ { series = { line("a", same), line("b", leaves), level("c", 1), level("d", 2) } }, { polar = true, series = { line("a", same) }, notes = { { x = 3, y = 3, text = "three" } } } } do

@@ -162,11 +162,12 @@ private:
     // Less room may leave names without a place, which the legend then has too.
     for (std::size_t before = picture_.series.size() + 1; before != crowded_.size();) {
       before = crowded_.size();
-      legend_ = chart_legend(picture_, em_, room_.width(), crowded_);
+      legend_ = chart_legend(picture_, em_, picture_.width - em_, crowded_);
       place(legend_.height());
       occupy();
     }
-    return Point{room_.left + (room_.width() - legend_.width()) / 2, room_.top + strip_height() + 0.1 * em_};
+    const double half = legend_.width() / 2 + 0.5 * em_;
+    return Point{std::clamp(room_.centre().x, half, std::max(half, picture_.width - half)) - legend_.width() / 2, room_.top + strip_height() + 0.1 * em_};
   }
 
   void draw_plot() {
