@@ -170,6 +170,14 @@ for k, other in ipairs{ "PDAS, space", "given" } do check.that(math.abs(above:te
 check.that(math.abs(above:text "PDAS".x - above:text "Coulomb".x) < 0.1 and above:text "Coulomb".y > above:text "PDAS".y, "below each other")
 check.that(math.abs(above:text "Coulomb".y - above:text "Coulomb, space".y) < 0.1)
 
+-- 10. Titles keep 0.6 of a letter's height off the edges.
+for words = 4, 10 do
+  local title <const> = ("title "):rep(words) .. "end"
+  local titled <const> = drawn{ title = title, y = "y", series = { curve } }
+  local top <const> = titled:text(title)
+  check.that(not top or top.x >= 20, title)
+end
+
 -- Equal pictures give equal bytes.
 local content <const> = require "bytes_of"
 for _, options in ipairs{ { series = { line("a", same), line("b", leaves), level("c", 1), level("d", 2) } }, { polar = true, series = { line("a", same) }, notes = { { x = 3, y = 3, text = "three" } } } } do

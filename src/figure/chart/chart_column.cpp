@@ -108,7 +108,7 @@ private:
 void render(const ChartColumn& given) {
   ChartColumn picture = given;
   const double em = letters(picture);
-  const FittedText title = fitted(picture.title, 1.15 * em, picture.width - em, true);
+  const FittedText title = fitted(picture.title, 1.15 * em, picture.width - 1.2 * em, true);
   const Legend legend = common_legend(picture.panels, em, picture.width - em);
   const double above = (picture.title.empty() ? 0 : 1.9 * em + title.depth()) + legend.height();
   Grid grid(picture, em, legend.empty());

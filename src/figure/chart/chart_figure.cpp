@@ -19,6 +19,7 @@ namespace dotyk::figure {
 namespace {
 
 constexpr double strip_gap = 0.45;   // em, of a break
+constexpr double off_edge = 0.6;     // em, that texts keep off the edges of the picture
 constexpr double outwards = -0.25;   // em, of ticks beside the cells of a map
 constexpr double name_depth = 1.7, labels_depth = 1.6;  // em, of the name of a y axis and of the labels of the x axis
 
@@ -166,7 +167,7 @@ private:
       place(legend_.height());
       occupy();
     }
-    const double half = legend_.width() / 2 + 0.5 * em_;
+    const double half = legend_.width() / 2;
     return Point{std::clamp(room_.centre().x, half, std::max(half, picture_.width - half)) - legend_.width() / 2, room_.top + strip_height() + 0.1 * em_};
   }
 
@@ -234,7 +235,7 @@ private:
     canvas_.text({within(above, true), picture_.height - 0.6 * em_}, above, title_style());
   }
 
-  FittedText title() const { return fitted(picture_.title, 1.1 * em_, picture_.width - em_, true); }
+  FittedText title() const { return fitted(picture_.title, 1.1 * em_, picture_.width - 2 * off_edge * em_, true); }
   FittedText x_name() const { return fitted(frame_.x_labels ? picture_.x_label : "", em_, picture_.width - em_, false, frame_.x_labels ? axis_name("", axes_.left.x_ticks) : ""); }
   FittedText y_name(const Axes& axes) const {
     const double room = room_.height() > 1 ? room_.height() : picture_.height;
@@ -263,7 +264,7 @@ private:
   double within(const FittedText& text, bool bold = false) const {
     double half = 0;
     for (const std::string& line : text.lines) half = std::max(half, text_extent(line, text.size, bold).x / 2);
-    half += 0.5 * em_;  // off the edge
+    half += off_edge * em_;
     return std::clamp(room_.centre().x, half, std::max(half, picture_.width - half));
   }
 
