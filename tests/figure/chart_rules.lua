@@ -69,7 +69,18 @@ for _, colour in ipairs{ blue, orange, "#009e73" } do
   check.that(broadest > 1, "drawn")
   for _, mark in ipairs(lines_of(zero, colour)) do check.that(mark.bottom + mark.width / 2 <= frame.bottom + 0.1, "inside") end
 end
--- Beneath dashes nothing is hidden; markers beneath markers are larger.
+-- Markers of one place are nested, those above smaller than alone, and none much larger.
+local function spots(name, at) return { name = name, x = at, y = at, style = "points" } end
+local nested <const> = drawn{ series = { spots("a", { 3, 9 }), spots("b", { 1, 3, 9 }), spots("c", { 2, 3, 9 }) } }
+local function sizes(colour)
+  local out <const> = {}
+  for k, mark in ipairs(nested:filled(colour)) do out[k] = mark.right - mark.left end
+  table.sort(out)
+  return out
+end
+local square <const>, triangle <const> = sizes(orange), sizes "#009e73"
+check.that(square[4] < 1.35 * square[1] and triangle[4] > 1.1 * triangle[1], "nested")
+-- Beneath dashes nothing is hidden.
 check.equal(#lines_of(drawn{ series = { line("a", same), { x = x, y = same, reference = true } } }, blue), 2)
 
 -- 3. nan is a gap.

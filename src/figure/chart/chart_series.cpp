@@ -153,20 +153,24 @@ std::vector<Point> SeriesDrawing::marked(const SeriesPicture& s) const {
   return out;
 }
 
-// In series without lines a marker that lies beneath later ones is larger. Of curves draw_lines() shows what is beneath.
+// In series without lines markers of one place are nested, those above smaller: all together are little larger than one. Of curves
+// draw_lines() shows what is beneath.
 void SeriesDrawing::draw_markers() {
-  constexpr std::ptrdiff_t kDeepest = 3;
-  const double near = 0.75 * pen_.line_width(), rim = 0.1 * pen_.em;
+  constexpr double kStep = 0.16, kMost = 0.42, kMore = 0.04;  // em from diameter to diameter, from the least to the greatest, and wider for each
+  const double near = 0.75 * pen_.line_width();
   const Box room = axes_.left.room.grown(1);
   std::vector<std::vector<Point>> places;
   for (const Look& look : looks_) places.push_back(marked(look.data));
-  std::vector<Neighbourhood> later(looks_.size(), Neighbourhood(room, near));
+  std::vector<Neighbourhood> about(looks_.size(), Neighbourhood(room, near));
   for (std::size_t k = 0; k < looks_.size(); ++k)
-    for (const Point& p : places[k]) later[k].add(p);
+    for (const Point& p : places[k]) about[k].add(p);
   for (std::size_t k = 0; k < looks_.size(); ++k)
     for (const Point& p : places[k]) {
-      const auto above = looks_[k].data.style != SeriesStyle::points ? 0 : std::count_if(later.begin() + static_cast<std::ptrdiff_t>(k) + 1, later.end(), [&](const Neighbourhood& n) { return n.holds(p); });
-      pen_.mark(canvas_, looks_[k], p, static_cast<double>(std::min(above, kDeepest)) * rim);
+      double above = 0, below = 0;
+      for (std::size_t other = 0; other < looks_.size(); ++other)
+        if (other != k && looks_[k].data.style == SeriesStyle::points && about[other].holds(p)) ++(other > k ? above : below);
+      const double step = std::min(kStep, kMost / std::max(1.0, above + below)) * pen_.em;
+      pen_.mark(canvas_, looks_[k], p, (step * (above - below) / 2 + kMore * pen_.em * (above + below)) / 2);
     }
 }
 
