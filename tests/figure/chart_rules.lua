@@ -181,7 +181,16 @@ for k, other in ipairs{ "PDAS, space", "given" } do check.that(math.abs(above:te
 check.that(math.abs(above:text "PDAS".x - above:text "Coulomb".x) < 0.1 and above:text "Coulomb".y > above:text "PDAS".y, "below each other")
 check.that(math.abs(above:text "Coulomb".y - above:text "Coulomb, space".y) < 0.1)
 
--- 10. Titles keep 0.6 of a letter's height off the edges.
+-- 10. Markers without a line stand close to their names, which have a white rim on the cells of a map in place of a box.
+local dots <const> = drawn{ series = { points("dots", same), points("b", leaves) } }
+local symbol <const> = dots:filled(orange)
+local sample <const> = symbol[#symbol]
+check.that(dots:text "b".x - sample.right < 25, "close")
+local named <const> = drawn{ map = { x = { 1, 2, 3 }, y = { 1, 2, 3 }, values = { { 1, 1, 1 }, { 1, 1, 1 }, { 1, 1, 1 } }, names = { "all" } }, series = { level("first bound", 1.3), level("other bound", 2.5) } }
+check.equal(named:text "first bound".fill, "#1e1e1e")
+for _, box in ipairs(named:filled "#ffffff") do check.that(box.right - box.left < 100 or box.right - box.left > 500, "no box") end
+
+-- 11. Titles keep 0.6 of a letter's height off the edges.
 for words = 4, 10 do
   local title <const> = ("title "):rep(words) .. "end"
   local titled <const> = drawn{ title = title, y = "y", series = { curve } }

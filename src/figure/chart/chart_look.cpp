@@ -111,7 +111,10 @@ bool look_alike(const Look& a, const Look& b) {
 }
 
 LegendEntry entry(const std::string& name, const Look& look, double em) {
-  return {name, [pen = Pen{em}, look](Canvas& canvas, const Box& box) { pen.sample(canvas, look, box); }};
+  constexpr double kMarker = 0.8, kLine = 2;  // em
+  const SeriesPicture& s = look.data;
+  const bool marker = s.style == SeriesStyle::points && !s.reference && !s.front && (s.low.empty() || s.bars);
+  return {name, [pen = Pen{em}, look](Canvas& canvas, const Box& box) { pen.sample(canvas, look, box); }, marker ? kMarker : kLine};
 }
 
 }  // namespace

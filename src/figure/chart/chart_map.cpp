@@ -111,9 +111,10 @@ std::vector<LegendEntry> map_legend(const ChartMap& map) {
       canvas.outline(box, std::max(1.0, high / 10), cross_grey);
     };
   };
+  constexpr double kCell = 1.2;  // em
   std::vector<LegendEntry> out;
-  for (std::size_t k = 0; k < map.names.size(); ++k) out.push_back({map.names[k], cell(name_colours[k], false)});
-  if (std::ranges::any_of(map.values, [](double v) { return std::isnan(v); })) out.push_back({"not applicable", cell(empty_cell, true)});
+  for (std::size_t k = 0; k < map.names.size(); ++k) out.push_back({map.names[k], cell(name_colours[k], false), kCell});
+  if (std::ranges::any_of(map.values, [](double v) { return std::isnan(v); })) out.push_back({"not applicable", cell(empty_cell, true), kCell});
   return out;
 }
 

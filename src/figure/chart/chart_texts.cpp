@@ -75,7 +75,7 @@ std::optional<PlotText> name_beside(const ChartPicture& picture, const ChartAxes
   const Point level = text_extent(s.name, size);
   const auto lines = curves(s.x, s.y, own);
   for (const bool upright : {false, true})
-    if (const auto box = place_along(lines, occupied, others, own, upright ? Point{level.y, level.x} : level)) return PlotText{{size, {s.name}}, *box, reference_grey, upright};
+    if (const auto box = place_along(lines, occupied, others, own, upright ? Point{level.y, level.x} : level)) return PlotText{{size, {s.name}}, *box, picture.map ? axes_ink : reference_grey, upright};
   return std::nullopt;
 }
 
@@ -148,9 +148,8 @@ std::vector<PlotText> plot_texts(const ChartPicture& picture, const ChartAxes& a
 
 void draw(Canvas& canvas, const PlotText& text, double em) {
   if (text.leader) canvas.line((*text.leader)[0], (*text.leader)[1], std::max(1.0, em / 20), text.colour);
-  canvas.box(text.box, {255, 255, 255}, 0.85);
   const Point first = text.box.centre() + Point{0, text.words.depth() / 2};
-  canvas.text(first, text.words, {.across = Align::middle, .up = Align::middle, .upright = text.upright, .colour = text.colour});
+  canvas.text(first, text.words, {.across = Align::middle, .up = Align::middle, .upright = text.upright, .colour = text.colour, .halo = true});
 }
 
 }  // namespace dotyk::figure
