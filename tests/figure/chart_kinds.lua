@@ -84,6 +84,8 @@ check.that(six:text "1" and six:text "2" and not six:text "1.5", "ticks at the v
 local function half(high) return { map = { x = { 1, 2 }, y = { 1 }, values = { { 0, high } }, label = "steps" } } end
 local shared <const> = drawn{ x = "x", panels = { half(1), half(2) } }
 check.that(#shared:filled "#fde725" > 0 and #shared:filled "#21918c" > 0, "1 is in the middle of 0 to 2")
+local beside <const> = drawn{ columns = 2, size = { 2000, 800 }, panels = { half(1), half(2) } }
+check.that(beside:text "steps" and not beside:text("steps", 2) and beside:text "max 2" and not beside:text "max 1", "one bar in a row")
 wrong({ map = { x = { 1, 2 }, y = { 1 }, values = { { 1 } }, label = "a" } }, "row 1 has 1 values for 2 x")
 wrong({ map = { x = { 1 }, y = { 1 }, values = { { 1 }, { 1 } }, label = "a" } }, "2 rows of values for 1 y")
 wrong({ map = { x = { 2, 1 }, y = { 1 }, values = { { 1, 1 } }, label = "a" } }, "'map': x must ascend; 1 follows 2")

@@ -41,6 +41,7 @@ struct ChartFrame {
   bool x_labels = true;
   bool alone = false;       // may be narrower than the picture
   bool legend = true;
+  bool bar = true;          // of the colours of a map
 };
 
 // From the canvas's origin, of the picture's size; returns the margins taken.

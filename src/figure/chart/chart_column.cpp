@@ -4,6 +4,7 @@
 #include "figure/canvas/sheet.hpp"
 #include "figure/chart/chart.hpp"
 #include "figure/chart/chart_look.hpp"
+#include "figure/chart/chart_map.hpp"
 #include "figure/chart/chart_polar.hpp"
 #include "figure/door/drawing.hpp"
 
@@ -36,17 +37,21 @@ void share_colours(std::vector<ChartPicture>& panels) {
 
 double sum(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
 
-// Panels row by row. All plots are equally high, and their frames stand in line along rows and columns.
+// Panels row by row; where the maps of each row show the same, it has one bar. All plots are equally high, and their frames stand in line along rows and columns.
 class Grid {
 public:
-  Grid(const ChartColumn& picture, double em, bool legends) : columns_(static_cast<std::size_t>(picture.columns)), width_(static_cast<double>(picture.width) / picture.columns) {
+  Grid(const ChartColumn& picture, double em, bool legends) : columns_(static_cast<std::size_t>(picture.columns)), em_(em) {
     panels_ = picture.panels;
     share_colours(panels_);
+    const bool one = columns_ > 1 && one_bar_a_row();
+    for (std::size_t i = 0; one && i < panels_.size(); ++i) bar_ = std::max(bar_, map_bar_width(bar_of(i), em));
+    width_ = (picture.width - bar_) / picture.columns;
     for (std::size_t i = 0; i < panels_.size(); ++i) {
       panels_[i].width = static_cast<int>(width_), panels_[i].height = picture.height / static_cast<int>(rows());
       if (picture.shared_x) panels_[i].x_range = common_x(picture.panels);
       frames_.push_back({em, {}, !picture.shared_x || i + columns_ >= panels_.size()});
       frames_.back().legend = legends && !legend_before(i);
+      frames_.back().bar = !one;
     }
   }
 
@@ -68,11 +73,28 @@ public:
     for (std::size_t i = 0; i < panels_.size(); ++i) {
       if (column(i) == 0) top -= panels_[i].height;
       canvas.origin({width_ * static_cast<double>(column(i)), top});
-      require_room(sheet, draw_on(canvas, panels_[i], frames_[i]), static_cast<int>(columns_));
+      const ChartMargins margins = draw_on(canvas, panels_[i], frames_[i]);
+      require_room(sheet, margins, static_cast<int>(columns_));
+      const bool last = column(i) + 1 == columns_ || i + 1 == panels_.size();
+      if (bar_ > 0 && last) draw_map_bar(canvas, bar_of(i), {{0, margins.below, 0, panels_[i].height - margins.above}, {}, {}, {}, {}, em_}, width_ - margins.right, width_ + bar_);
     }
   }
 
 private:
+  // Do the maps of every row show the same?
+  bool one_bar_a_row() const {
+    return std::ranges::all_of(panels_, [&](const ChartPicture& panel) {
+      const auto& first = panels_[row(static_cast<std::size_t>(&panel - panels_.data())) * columns_].map;
+      return panel.map && panel.map->names.empty() && first && panel.map->label == first->label && panel.map->unit == first->unit && !panel.polar;
+    });
+  }
+  // The map of a bar that serves all of a panel's row.
+  ChartMap bar_of(std::size_t i) const {
+    ChartMap out = *panels_[i].map;
+    if (out.range) out.values.assign(out.range->begin(), out.range->end());
+    return out;
+  }
+
   // Is there a legend that serves this panel beside it on the left, or above it?
   bool legend_before(std::size_t i) {
     legend_of_.push_back(i);
@@ -96,7 +118,7 @@ private:
   }
 
   std::size_t columns_;
-  double width_;  // of a panel
+  double em_, width_ = 0, bar_ = 0;  // of a panel, and of a bar beside a row
   std::vector<ChartPicture> panels_;
   std::vector<ChartFrame> frames_;
   std::vector<std::size_t> legend_of_;  // the panel whose legend serves each

@@ -108,7 +108,7 @@ private:
 
   double margin_right() const {
     if (right_) return 0.6 * em_ + (picture_.y_right_label.empty() && !axes_.right.y_ticks.exponent ? 0 : name_depth * em_ + beyond_two(y_name(axes_.right))) + widest_label(axes_.right.y_ticks, em_) + 0.5 * em_;
-    const double bar = picture_.map ? map_bar_width(*picture_.map, em_) : 0;
+    const double bar = picture_.map && frame_.bar ? map_bar_width(*picture_.map, em_) : 0;
     return 0.6 * em_ + std::max(bar, picture_.categories.empty() ? widest_label(axes_.left.x_ticks, em_) / 2 : 0);
   }
 
@@ -179,7 +179,7 @@ private:
     canvas_.no_clip();
     if (const auto& b = axes_.left.y.left_out) canvas_.box({room_.left, b->low, room_.right, b->high}, {255, 255, 255});
     series_.draw_markers();
-    if (picture_.map) draw_map_bar(canvas_, *picture_.map, axes_.left, room_.right, picture_.width);
+    if (picture_.map && frame_.bar) draw_map_bar(canvas_, *picture_.map, axes_.left, room_.right, picture_.width);
   }
 
   double strip_height() const { return failed_.empty() ? 0 : strip_gap * em_ + std::max(2.3, 0.4 + 0.8 * static_cast<double>(failed_.size())) * em_; }
