@@ -121,7 +121,7 @@ for _, it in ipairs(full.texts) do
   end
 end
 check.equal(#places, 16)
-refused(function() dotyk.chart{ file = "rules.svg", series = { curve }, notes = notes_at(2, 1.2, 60) } end, 'the note "a note of some length, number 60" has no free place in its plot')
+refused(function() dotyk.chart{ file = "rules.svg", series = { curve }, notes = notes_at(2, 1.2, 60) } end, 'the note "a note of some length, number ', '" has no free place in its plot')
 refused(function() dotyk.chart{ file = "rules.svg", series = { curve }, notes = notes_at(20, 1.2, 1) } end, 'number 1" is at (20, 1.2), but the axes go from (0.9, ')
 refused(function() dotyk.chart{ file = "rules.svg", log = "x", series = { curve }, notes = { { x = 0, y = 1, text = "zero" } } } end, 'the note "zero" has no place on a logarithmic axis')
 refused(function() dotyk.chart{ file = "rules.svg", series = { curve }, notes = { { x = 1, y = 1 } } } end, "missing key 'text'")

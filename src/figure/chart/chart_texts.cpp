@@ -134,8 +134,9 @@ std::vector<PlotText> plot_texts(const ChartPicture& picture, const ChartAxes& a
   crowded_note = nullptr;
   for (const ChartNote& note : picture.notes) {
     check_inside(note, axes.left);
-    if (auto text = note_near(note, axes, occupied)) add(std::move(*text));
-    else crowded_note = &note;
+    auto text = crowded_note ? std::nullopt : note_near(note, axes, occupied);
+    if (text) add(std::move(*text));
+    else if (!crowded_note) crowded_note = &note;
   }
   if (!names_beside(picture)) return out;
   for (const SeriesPicture& s : picture.series) {
