@@ -98,9 +98,9 @@ for _, longitude in ipairs{ 0, 30, 90, 200 } do
 end
 local count, spherical = 0, 0
 local sphere <const> = { x = {}, y = {}, values = {}, names = { "refused", "carried by three planes", "carried by a floor, μ = 0.4", "carried by both" } }
-for down = 0, 90, 5 * step do -- the angle from straight down
+for down = 0, 90, 5 * step do -- the angle from straight down; longitudes are in the middle of cells, which the boundaries at 180° and 270° do not cut
   local row <const> = {}
-  for longitude = 0, 360 - 5 * step, 5 * step do
+  for longitude = 2.5 * step, 360, 5 * step do
     local a, b = math.rad(90 - down), math.rad(longitude)
     local x, y, z = math.cos(a) * math.cos(b), math.cos(a) * math.sin(b), -math.sin(a)
     local verdict = cube(x, y, z):balance()
@@ -123,8 +123,8 @@ end
 print(("space: %d directions of the lower hemisphere, %d wrong"):format(count, spherical))
 
 table.insert(series, 1, all_refused)
-dotyk.chart{ file = "images/load_cone.png", polar = true, x = "direction of the load", y = "case", series = series, size = { 1000, 1150 } }
+dotyk.chart{ file = "images/load_cone.png", polar = true, x = "direction of the load", y = "case", series = series, size = { 1000, 1050 } }
 dotyk.chart{ file = "images/load_hemisphere.png", polar = true, x = "longitude of the load's direction", y = "angle from straight down [°]",
-             map = sphere, size = { 1000, 1100 } }
+             map = sphere, size = { 1000, 1050 } }
 print "images/load_cone.png, images/load_hemisphere.png"
 if wrong + spherical > 0 then error(wrong + spherical .. " verdicts are wrong") end

@@ -25,7 +25,13 @@ local two <const> = five:text "interior"
 check.that(two and five:text "point" and two.y < five:text "point".y, "in two lines")
 local many <const> = drawn{ categories = { "interior_point", "projected_cg", "uzawa_pdas", "active_set", "multigrid", "coulomb_loop", "feti" }, series = { curve } }
 check.that(many:text "interior_point".upright and many:text "feti".upright)
-for _, it in ipairs{ few, five, many } do check.that(it.least >= 7, it.least) end
+local function names_of(n) local out <const> = {} for k = 1, n do out[k] = "category " .. k end return out end
+-- Names have no end cut off: where they are long the picture grows.
+local long <const> = { "incomplete_factorisation_with_a_long_name", "a name of several words that has three lines", "c", "d", "e", "f" }
+local grown <const> = drawn{ categories = long, series = { curve } }
+check.that(grown:text(long[1]).upright and grown:text(long[1]).y > 750 and grown:text "a name of several".upright, "whole")
+wrong({ size = { 1000, 750 }, categories = names_of(40), series = { curve } }, "categories meet even upright")
+for _, it in ipairs{ few, five, many, grown } do check.that(it.least >= 7, it.least) end
 wrong({ categories = { "a" }, log = "x", series = { curve } }, "'categories' together with a logarithmic x axis or 'x_range'")
 wrong({ categories = { "a" }, x_range = { 0, 2 }, series = { curve } }, "'categories'")
 wrong({ x = "x", panels = { { categories = { "a" }, series = { curve } }, { series = { curve } } } }, "have the same categories")
@@ -78,6 +84,8 @@ check.that(six:text "1" and six:text "2" and not six:text "1.5", "ticks at the v
 local function half(high) return { map = { x = { 1, 2 }, y = { 1 }, values = { { 0, high } }, label = "steps" } } end
 local shared <const> = drawn{ x = "x", panels = { half(1), half(2) } }
 check.that(#shared:filled "#fde725" > 0 and #shared:filled "#21918c" > 0, "1 is in the middle of 0 to 2")
+local beside <const> = drawn{ columns = 2, size = { 2000, 800 }, panels = { half(1), half(2) } }
+check.that(beside:text "steps" and not beside:text("steps", 2) and beside:text "max 2" and not beside:text "max 1", "one bar in a row")
 wrong({ map = { x = { 1, 2 }, y = { 1 }, values = { { 1 } }, label = "a" } }, "row 1 has 1 values for 2 x")
 wrong({ map = { x = { 1 }, y = { 1 }, values = { { 1 }, { 1 } }, label = "a" } }, "2 rows of values for 1 y")
 wrong({ map = { x = { 2, 1 }, y = { 1 }, values = { { 1, 1 } }, label = "a" } }, "'map': x must ascend; 1 follows 2")
@@ -101,6 +109,22 @@ check.that(polar:text "1" and polar:text "2" and not polar:text "0")
 check.that(polar.least >= 7, polar.least)
 local sectors <const> = drawn{ polar = true, map = { x = { 0, 90, 180, 270 }, y = { 1, 2 }, values = { { 1, 1, 1, 1 }, { 2, 2, 1, 1 } }, names = { "in", "out" } } }
 check.equal(#sectors:filled "#d6601e", 3)
+-- Cells end at the first and last radius, and at the first and last angle unless they go all around.
+local quarter <const> = drawn{ polar = true, map = { x = { 0, 30, 60, 90 }, y = { 0, 45, 90 }, values = { { 1, 1, 1, 1 }, { 1, 1, 1, 1 }, { 2, 2, 2, 2 } }, names = { "in", "out" } } }
+local rim_of <const> = quarter:filled "#d6601e"
+local pole <const> = { x = (quarter:text "90°".x + quarter:text "270°".x) / 2, y = quarter:text "0°".y }
+check.that(rim_of[1].bottom < pole.y and rim_of[4].left > quarter:text "90°".x, "none below 0°, none beyond 90°")
+check.that(quarter:text "80" and not quarter:text "100")
+-- A small circle has names of the axes alone, and one that would not be legible is refused.
+local ring_of <const> = { name = "ring", x = { 0, 90, 180, 270, 360 }, y = { 2, 2, 2, 2, 2 } }
+local round <const> = { polar = true, y = "force", series = { ring_of } }
+local small <const> = drawn{ size = { 1000, 600 }, columns = 2, panels = { round, round } }
+check.that(small:text "90°" and small:text "270°" and not small:text "60°" and small:text "1" and small:text "2")
+wrong({ columns = 3, size = { 1000, 600 }, panels = { round, round, round } }, "2 mm are left for a plot of kinds.svg, at least 15 are needed: give fewer 'columns' or a 'width' of")
+wrong({ polar = true, width = 30, series = { ring_of } }, "for the plot of kinds.svg, at least 15 are needed: give a 'width' of 3")
+local wide <const> = { y = "force", series = { { x = { 1, 2 }, y = { 1000, 2000 } } } }
+wrong({ columns = 3, size = { 1000, 600 }, panels = { wide, wide, wide } }, "10 mm are left for a plot of kinds.svg")
+drawn{ width = 101, columns = 3, panels = { wide, wide, wide } }
 wrong({ polar = true, log = "y", series = { curve } }, "'polar' together with 'log'")
 wrong({ polar = true, y_range = { 0, 1 }, series = { curve } }, "'polar' together with 'y_range'")
 wrong({ polar = true, series = { { name = "a", x = { 1 }, y = { -1 } } } }, 'series "a": the radius -1 is negative')

@@ -99,7 +99,7 @@ function svg.sample(picture, entry)
   local out <const> = {}
   for _, t in ipairs(picture.texts) do
     for _, m in ipairs(t.text == entry and picture.marks or {}) do
-      if m[1][1] > t.x - 2.5 * picture.em and m[1][1] < t.x and math.abs(m[1][2] - t.y) < picture.em then out[#out + 1] = m end
+      if m[1][1] > t.x - 2.5 * picture.em and m[1][1] < t.x and math.abs(m[1][2] - t.y) < 0.8 * picture.em then out[#out + 1] = m end
     end
   end
   return out

@@ -33,7 +33,7 @@ local bent <const> = dotyk.solve(plate)
 local kinds <const> = {
   chart = function(o) o.title, o.x, o.y, o.series, o.slopes = long, long, long, { curve, { name = long, x = { 1, 2 }, y = { 1, 2 } } }, { 1 } return dotyk.chart(o) end,
   logarithmic = function(o) o.x, o.y, o.log, o.series = "h", "‖e‖", "xy", { curve } return dotyk.chart(o) end,
-  panels = function(o) o.columns, o.panels = 3, { panel, panel, panel, panel } return dotyk.chart(o) end,
+  panels = function(o) o.columns, o.panels = o.width > 100 and 3 or 2, { panel, panel, panel, panel } return dotyk.chart(o) end,
   scene = function(o) o.title, o.contact, o.loads, o.supports, o.field, o.unit = long, true, true, true, "von_mises", "MPa" return block:render(o) end,
   solid = function(o) o.contact, o.loads, o.supports, o.field = true, true, true, "xz" return solid:render(o) end,
   beam = function(o) o.title, o.units = long, { length = "m", force = "kN" } return beam:render(o) end,

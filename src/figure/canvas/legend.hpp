@@ -13,13 +13,14 @@ struct LegendEntry {
   std::string name;
   // Draws the sample into the box; none: the name stands alone.
   std::function<void(Canvas&, const Box&)> sample;
+  double width = 2;  // of the sample, in em
 };
 
 class Legend {
 public:
-  // em: height of the letters in pixels. columns_within: entries run in rows
-  // no wider than this, longer names shortened; 0: one entry below the other.
-  Legend(std::vector<LegendEntry> entries, double em, double columns_within = 0);
+  // em: height of the letters in pixels. rows_within_pixels: entries run in as few rows as can be, no wider than this, in columns if these
+  // take no more; longer names are shortened. 0: one entry below the other.
+  Legend(std::vector<LegendEntry> entries, double em, double rows_within_pixels = 0);
 
   bool empty() const { return entries_.empty(); }
   double width() const { return width_; }
@@ -27,6 +28,9 @@ public:
   void draw(Canvas& canvas, Point lower_left, bool framed) const;
 
 private:
+  void place_in_columns(std::size_t columns);
+  void place_in_rows(std::size_t rows, double width);
+
   std::vector<LegendEntry> entries_;
   std::vector<Point> places_;  // lower left of each entry, from the block's top left
   double em_, width_ = 0, height_ = 0;

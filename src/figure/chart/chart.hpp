@@ -26,10 +26,13 @@ std::vector<std::vector<Point>> curves(const std::vector<double>& x, const std::
 // all; smaller where there is little room. What it takes is added to `occupied`.
 void draw_guide(Canvas& canvas, const ChartPicture& picture, const SlopeGuide& guide, const Axes& axes, Occupied& occupied);
 
-// Pixels beside the plot.
+// Pixels beside the plot, and across it; of polar axes across the circle. And a note for which there is no free place.
 struct ChartMargins {
-  double left = 0, right = 0, below = 0, above = 0;
+  double left = 0, right = 0, below = 0, above = 0, plot = 0;
+  const ChartNote* crowded = nullptr;
 };
+// Throws InputError where labels leave less than 15 mm for a plot in one of so many columns, or a note has no place.
+void require_room(const Sheet& sheet, const ChartMargins& margins, int columns);
 
 // What a chart has in common with those above and below it.
 struct ChartFrame {
@@ -38,6 +41,7 @@ struct ChartFrame {
   bool x_labels = true;
   bool alone = false;       // may be narrower than the picture
   bool legend = true;
+  bool bar = true;          // of the colours of a map
 };
 
 // From the canvas's origin, of the picture's size; returns the margins taken.

@@ -5,17 +5,18 @@
 
 namespace dotyk::figure {
 
-// All in letters of one size: level, in one line or two, or upright where that is too wide.
+// All in letters of one size: level, in up to three lines, or upright in full length where that is too wide: then the picture grows.
 class CategoryNames {
 public:
-  // With so many pixels from one to the next, in a picture so high.
-  CategoryNames(const std::vector<std::string>& names, double em, double spacing, double height);
+  // With so many pixels from one to the next.
+  CategoryNames(const std::vector<std::string>& names, double em, double spacing);
   double height() const { return height_; }  // pixels that they take below the axis
+  // Throws InputError where upright names meet.
   void draw(Canvas& canvas, const Axes& axes) const;
 
 private:
   std::vector<FittedText> names_;
-  bool upright_ = false;
+  bool upright_ = false, crowded_ = false;
   double height_ = 0;
 };
 

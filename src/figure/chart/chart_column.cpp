@@ -4,6 +4,8 @@
 #include "figure/canvas/sheet.hpp"
 #include "figure/chart/chart.hpp"
 #include "figure/chart/chart_look.hpp"
+#include "figure/chart/chart_map.hpp"
+#include "figure/chart/chart_polar.hpp"
 #include "figure/door/drawing.hpp"
 
 namespace dotyk::figure {
@@ -18,21 +20,6 @@ std::array<double, 2> common_x(const std::vector<ChartPicture>& panels) {
     range = {std::min(range[0], axis.low), std::max(range[1], axis.high)};
   }
   return range;
-}
-
-// The panel whose legend serves all others that have one, the longest; none where some have other entries or such as depend on the
-// room, or only one has a legend.
-const ChartPicture* common_legend(const std::vector<ChartPicture>& panels) {
-  const ChartPicture* longest = nullptr;
-  double most = 0;
-  std::ptrdiff_t with = 0;
-  for (const ChartPicture& panel : panels) {
-    const double height = chart_legend(panel, 1, 0).height();
-    with += height > 0;
-    if (height > most) most = height, longest = &panel;
-  }
-  const bool serves = std::ranges::all_of(panels, [&](const ChartPicture& panel) { return !names_beside(panel) && (!longest || legend_serves(*longest, panel)); });
-  return serves && with > 1 ? longest : nullptr;
 }
 
 // Of all maps that show the same.
@@ -50,17 +37,21 @@ void share_colours(std::vector<ChartPicture>& panels) {
 
 double sum(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
 
-// Panels row by row. All plots are equally high, and their frames stand in line along rows and columns.
+// Panels row by row; where the maps of each row show the same, it has one bar. All plots are equally high, and their frames stand in line along rows and columns.
 class Grid {
 public:
-  Grid(const ChartColumn& picture, double em, bool legends) : columns_(static_cast<std::size_t>(picture.columns)), width_(static_cast<double>(picture.width) / picture.columns) {
+  Grid(const ChartColumn& picture, double em, bool legends) : columns_(static_cast<std::size_t>(picture.columns)), em_(em) {
     panels_ = picture.panels;
     share_colours(panels_);
+    const bool one = columns_ > 1 && one_bar_a_row();
+    for (std::size_t i = 0; one && i < panels_.size(); ++i) bar_ = std::max(bar_, map_bar_width(bar_of(i), em));
+    width_ = (picture.width - bar_) / picture.columns;
     for (std::size_t i = 0; i < panels_.size(); ++i) {
       panels_[i].width = static_cast<int>(width_), panels_[i].height = picture.height / static_cast<int>(rows());
       if (picture.shared_x) panels_[i].x_range = common_x(picture.panels);
       frames_.push_back({em, {}, !picture.shared_x || i + columns_ >= panels_.size()});
-      frames_.back().legend = legends;
+      frames_.back().legend = legends && !legend_before(i);
+      frames_.back().bar = !one;
     }
   }
 
@@ -78,15 +69,40 @@ public:
   }
 
   // `top`: of the first row, above the lower edge of the picture.
-  void draw(Canvas& canvas, double top) const {
+  void draw(Canvas& canvas, double top, const Sheet& sheet) const {
     for (std::size_t i = 0; i < panels_.size(); ++i) {
       if (column(i) == 0) top -= panels_[i].height;
       canvas.origin({width_ * static_cast<double>(column(i)), top});
-      draw_on(canvas, panels_[i], frames_[i]);
+      const ChartMargins margins = draw_on(canvas, panels_[i], frames_[i]);
+      require_room(sheet, margins, static_cast<int>(columns_));
+      const bool last = column(i) + 1 == columns_ || i + 1 == panels_.size();
+      if (bar_ > 0 && last) draw_map_bar(canvas, bar_of(i), {{0, margins.below, 0, panels_[i].height - margins.above}, {}, {}, {}, {}, em_}, width_ - margins.right, width_ + bar_);
     }
   }
 
 private:
+  // Do the maps of every row show the same?
+  bool one_bar_a_row() const {
+    return std::ranges::all_of(panels_, [&](const ChartPicture& panel) {
+      const auto& first = panels_[row(static_cast<std::size_t>(&panel - panels_.data())) * columns_].map;
+      return panel.map && panel.map->names.empty() && first && panel.map->label == first->label && panel.map->unit == first->unit && !panel.polar;
+    });
+  }
+  // The map of a bar that serves all of a panel's row.
+  ChartMap bar_of(std::size_t i) const {
+    ChartMap out = *panels_[i].map;
+    if (out.range) out.values.assign(out.range->begin(), out.range->end());
+    return out;
+  }
+
+  // Is there a legend that serves this panel beside it on the left, or above it?
+  bool legend_before(std::size_t i) {
+    legend_of_.push_back(i);
+    for (const auto& [there, neighbour] : {std::pair{column(i) > 0, i - 1}, {row(i) > 0, i - columns_}})
+      if (there && legend_serves(panels_[legend_of_[neighbour]], panels_[i])) return legend_of_[i] = legend_of_[neighbour], true;
+    return false;
+  }
+
   std::size_t rows() const { return (panels_.size() + columns_ - 1) / columns_; }
   std::size_t row(std::size_t i) const { return i / columns_; }
   std::size_t column(std::size_t i) const { return i % columns_; }
@@ -102,9 +118,10 @@ private:
   }
 
   std::size_t columns_;
-  double width_;  // of a panel
+  double em_, width_ = 0, bar_ = 0;  // of a panel, and of a bar beside a row
   std::vector<ChartPicture> panels_;
   std::vector<ChartFrame> frames_;
+  std::vector<std::size_t> legend_of_;  // the panel whose legend serves each
   std::vector<double> left_, right_, above_, below_;
 };
 
@@ -113,19 +130,19 @@ private:
 void render(const ChartColumn& given) {
   ChartColumn picture = given;
   const double em = letters(picture);
-  const FittedText title = fitted(picture.title, 1.15 * em, picture.width - em, true);
-  const ChartPicture* common = common_legend(picture.panels);
-  const Legend legend = common ? chart_legend(*common, em, picture.width - em) : Legend({}, em);
+  const FittedText title = fitted(picture.title, 1.15 * em, picture.width - 1.2 * em, true);
+  const Legend legend = common_legend(picture.panels, em, picture.width - em);
   const double above = (picture.title.empty() ? 0 : 1.9 * em + title.depth()) + legend.height();
-  Grid grid(picture, em, !common);
+  Grid grid(picture, em, legend.empty());
   // The picture grows where plots would be too low to be legible.
-  const double needed = grid.fill(picture.height - above, least_plot(picture));
+  const bool polar = std::ranges::any_of(picture.panels, &ChartPicture::polar);
+  const double needed = grid.fill(picture.height - above, least_plot(picture) + (polar ? 2 * polar_rim(em).y : 0));
   picture.height = std::clamp(static_cast<int>(std::ceil(needed + above)), picture.height, std::max(picture.height, greatest_side));
 
   Canvas canvas;
   canvas.text({picture.width / 2.0, picture.height - 0.6 * em}, title, title_style());
   legend.draw(canvas, {(picture.width - legend.width()) / 2, picture.height - above}, false);
-  grid.draw(canvas, picture.height - above);
+  grid.draw(canvas, picture.height - above, picture);
   write_canvas(canvas, picture);
 }
 

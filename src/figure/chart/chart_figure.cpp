@@ -3,6 +3,8 @@
 // that stand off each other nor slope guides.
 #include <optional>
 
+#include "base/error.hpp"
+#include "base/text.hpp"
 #include "figure/canvas/paper.hpp"
 #include "figure/canvas/sheet.hpp"
 #include "figure/chart/chart_categories.hpp"
@@ -17,6 +19,7 @@ namespace dotyk::figure {
 namespace {
 
 constexpr double strip_gap = 0.45;   // em, of a break
+constexpr double off_edge = 0.6;     // em, that texts keep off the edges of the picture
 constexpr double outwards = -0.25;   // em, of ticks beside the cells of a map
 constexpr double name_depth = 1.7, labels_depth = 1.6;  // em, of the name of a y axis and of the labels of the x axis
 
@@ -50,7 +53,7 @@ public:
     if (picture.polar) draw_polar_labels(canvas_, axes, occupied_);
   }
 
-  ChartMargins margins() const { return {room_.left, picture_.width - room_.right, room_.bottom, picture_.height - room_.top}; }
+  ChartMargins margins() const { return {room_.left, picture_.width - room_.right, room_.bottom, picture_.height - room_.top - spare_, inner_width(), crowded_note_}; }
 
 private:
   // Margins from the widths of what stands in them.
@@ -83,7 +86,9 @@ private:
     if (!out.ticks.empty() || picture_.polar) return out;
     if (picture_.map && !x.log && !map_ticks(picture_.map->x).ticks.empty()) return map_ticks(picture_.map->x);
     const double width = room_.width() > 1 ? room_.width() : 27 * em_;
-    return x.log ? log_ticks(x.low, x.high, static_cast<int>(std::max(3.0, width / (3.6 * em_))) + 1) : spaced_ticks({false, x.low, x.high, 0, width}, em_);
+    // Within less than a decade steps are even as on a linear axis.
+    const bool decades = x.log && std::log10(x.high) - std::log10(x.low) > 0.7;
+    return decades ? log_ticks(x.low, x.high, static_cast<int>(std::max(3.0, width / (3.6 * em_))) + 1) : spaced_ticks({x.log, x.low, x.high, 0, width}, em_);
   }
 
   Ticks y_ticks(const Axis& y) const {
@@ -91,7 +96,8 @@ private:
     if (picture_.polar) return {};
     if (picture_.map && !y.log && !map_ticks(picture_.map->y).ticks.empty()) return map_ticks(picture_.map->y);
     if (y.left_out) return broken_ticks(y, std::min(8.0, labels));
-    return y.log ? log_ticks(y.low, y.high, static_cast<int>(labels) + 1) : few_ticks(y.low, y.high, std::min(8.0, labels));
+    constexpr double kLine = 1.35;  // em from a power of ten to the next
+    return y.log ? log_ticks(y.low, y.high, room_.height() > 1 ? static_cast<int>(std::lround(room_.height() / (kLine * em_))) : 6) : few_ticks(y.low, y.high, std::min(8.0, labels));
   }
 
   double margin_left() const {
@@ -102,7 +108,7 @@ private:
 
   double margin_right() const {
     if (right_) return 0.6 * em_ + (picture_.y_right_label.empty() && !axes_.right.y_ticks.exponent ? 0 : name_depth * em_ + beyond_two(y_name(axes_.right))) + widest_label(axes_.right.y_ticks, em_) + 0.5 * em_;
-    const double bar = picture_.map ? map_bar_width(*picture_.map, em_) : 0;
+    const double bar = picture_.map && frame_.bar ? map_bar_width(*picture_.map, em_) : 0;
     return 0.6 * em_ + std::max(bar, picture_.categories.empty() ? widest_label(axes_.left.x_ticks, em_) / 2 : 0);
   }
 
@@ -115,15 +121,20 @@ private:
 
   CategoryNames category_names() const {
     const double width = room_.width() > 1 ? room_.width() : picture_.width - room_.left;
-    return {picture_.categories, em_, width / static_cast<double>(picture_.categories.size()), static_cast<double>(picture_.height)};
+    return {picture_.categories, em_, width / static_cast<double>(picture_.categories.size())};
   }
 
   bool equal() const { return !axes_.left.x.log && !axes_.left.y.log && picture_.x_range && picture_.x_range == picture_.y_range; }
 
+  // What names of angles leave.
+  Point rim() const { return picture_.polar ? polar_rim(em_) : Point{}; }
+  double inner_width() const { return room_.width() - 2 * rim().x; }
+  double inner_height() const { return room_.height() - 2 * rim().y; }
+
   void make_square() {
-    const double side = std::min(room_.width(), room_.height());
-    indent_ = (room_.width() - side) / 2;
-    room_ = {room_.left + indent_, room_.bottom, room_.right - indent_, room_.bottom + side};
+    const double side = std::min(inner_width(), inner_height());
+    indent_ = (inner_width() - side) / 2, spare_ = inner_height() - side;
+    room_ = {room_.left + indent_, room_.bottom, room_.right - indent_, room_.bottom + side + 2 * rim().y};
   }
 
   // The parts of a broken axis below and above its break have the same scale, unless one of them would then be very low.
@@ -139,7 +150,7 @@ private:
     occupied_ = {};
     series_.occupy(occupied_);
     if (picture_.polar) occupy_polar(axes_.left, occupied_);
-    texts_ = plot_texts(picture_, axes_, occupied_, crowded_);
+    texts_ = plot_texts(picture_, axes_, occupied_, crowded_, crowded_note_);
   }
 
   // The lower left of the legend: at a free place among the curves; where there is none in rows above them, and all is placed anew.
@@ -152,11 +163,12 @@ private:
     // Less room may leave names without a place, which the legend then has too.
     for (std::size_t before = picture_.series.size() + 1; before != crowded_.size();) {
       before = crowded_.size();
-      legend_ = chart_legend(picture_, em_, room_.width(), crowded_);
+      legend_ = chart_legend(picture_, em_, picture_.width - em_, crowded_);
       place(legend_.height());
       occupy();
     }
-    return Point{room_.left + (room_.width() - legend_.width()) / 2, room_.top + strip_height() + 0.1 * em_};
+    const double half = legend_.width() / 2;
+    return Point{std::clamp(room_.centre().x, half, std::max(half, picture_.width - half)) - legend_.width() / 2, room_.top + strip_height() + 0.1 * em_};
   }
 
   void draw_plot() {
@@ -167,7 +179,7 @@ private:
     canvas_.no_clip();
     if (const auto& b = axes_.left.y.left_out) canvas_.box({room_.left, b->low, room_.right, b->high}, {255, 255, 255});
     series_.draw_markers();
-    if (picture_.map) draw_map_bar(canvas_, *picture_.map, axes_.left, room_.right, picture_.width);
+    if (picture_.map && frame_.bar) draw_map_bar(canvas_, *picture_.map, axes_.left, room_.right, picture_.width);
   }
 
   double strip_height() const { return failed_.empty() ? 0 : strip_gap * em_ + std::max(2.3, 0.4 + 0.8 * static_cast<double>(failed_.size())) * em_; }
@@ -223,7 +235,7 @@ private:
     canvas_.text({within(above, true), picture_.height - 0.6 * em_}, above, title_style());
   }
 
-  FittedText title() const { return fitted(picture_.title, 1.1 * em_, picture_.width - em_, true); }
+  FittedText title() const { return fitted(picture_.title, 1.1 * em_, picture_.width - 2 * off_edge * em_, true); }
   FittedText x_name() const { return fitted(frame_.x_labels ? picture_.x_label : "", em_, picture_.width - em_, false, frame_.x_labels ? axis_name("", axes_.left.x_ticks) : ""); }
   FittedText y_name(const Axes& axes) const {
     const double room = room_.height() > 1 ? room_.height() : picture_.height;
@@ -252,7 +264,7 @@ private:
   double within(const FittedText& text, bool bold = false) const {
     double half = 0;
     for (const std::string& line : text.lines) half = std::max(half, text_extent(line, text.size, bold).x / 2);
-    half += 0.5 * em_;  // off the edge
+    half += off_edge * em_;
     return std::clamp(room_.centre().x, half, std::max(half, picture_.width - half));
   }
 
@@ -266,13 +278,22 @@ private:
   Legend legend_;
   bool right_ = false;  // is there a y axis on the right?
   Box& room_ = axes_.left.room;
-  double indent_ = 0;  // of a plot narrower than it might be
+  double indent_ = 0, spare_ = 0;  // of a plot narrower or lower than it might be
   std::vector<PlotText> texts_;
   SeriesSet crowded_;  // reference curves whose names have no place in the plot
+  const ChartNote* crowded_note_ = nullptr;
   Occupied occupied_;
 };
 
 }  // namespace
+
+void require_room(const Sheet& sheet, const ChartMargins& margins, int columns) {
+  if (margins.crowded) throw InputError("the note \"" + margins.crowded->text + "\" has no free place in its plot: give fewer words, or a greater 'size'");
+  constexpr double kLeast = 15;  // mm
+  const double mm = printed_width(sheet) / sheet.width, needed = std::ceil(printed_width(sheet) + columns * (kLeast - mm * margins.plot));
+  if (mm * margins.plot < kLeast - 0.05)
+    throw InputError(text("beside its labels ", std::max(0.0, std::floor(mm * margins.plot)), " mm are left for ", columns > 1 ? "a" : "the", " plot of ", sheet.file, ", at least ", kLeast, " are needed: give ", columns > 1 ? "fewer 'columns' or " : "", "a 'width' of ", needed, " mm"));
+}
 
 ChartMargins draw_on(Canvas& canvas, const ChartPicture& picture, const ChartFrame& frame) { return Chart(picture, canvas, frame).margins(); }
 
@@ -283,10 +304,12 @@ void render(const ChartPicture& picture) {
   Canvas tried;
   const ChartMargins margins = draw_on(tried, picture, frame);
   constexpr double kShare = 0.45;  // of the height
-  const double least = std::max(least_plot(picture), kShare * picture.height);
+  const double least = std::max(least_plot(picture), kShare * picture.height) + (picture.polar ? 2 * polar_rim(frame.em).y : 0);
   grown.height = std::clamp(static_cast<int>(margins.above + margins.below + least), picture.height, std::max(picture.height, greatest_side));
+  // So may notes.
+  for (int tries = 0; tries < 4 && draw_on(tried, grown, frame).crowded; ++tries) grown.height = std::clamp(grown.height * 6 / 5, grown.height, std::max(grown.height, greatest_side));
   Canvas canvas;
-  draw_on(canvas, grown, frame);
+  require_room(picture, draw_on(canvas, grown, frame), 1);
   write_canvas(canvas, grown);
 }
 

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "figure/chart/chart_map.hpp"
+#include "figure/chart/hidden.hpp"
 
 namespace dotyk::figure {
 
@@ -16,21 +17,41 @@ double held(Wide value, double least = std::numeric_limits<double>::lowest()) {
   return static_cast<double>(std::clamp(value, Wide{least}, Wide{std::numeric_limits<double>::max()}));
 }
 
-// Points of the curve that has nearest to this slope, pixels over pixels, from its first to its last point; of all where there is none.
-Occupied like(const ChartPicture& picture, double slope, const Axes& axes, const Occupied& occupied) {
-  std::vector<Point> best;
+// A stretch of a curve: how much its slope differs, as a share, and the points in its middle.
+struct Stretch {
+  double off = 0;
+  std::vector<Point> middle;
+};
+
+// The stretches of a curve, one from each of its points on, that are as long as the way; all of a curve that is shorter.
+std::vector<Stretch> stretches(const std::vector<Point>& points, Point way) {
+  std::vector<Stretch> out;
+  const double least = std::min(length(way), length(points.back() - points.front()));
+  for (std::size_t i = 0, j = 0; i < points.size(); ++i) {
+    while (j + 1 < points.size() && length(points[j] - points[i]) < least) ++j;
+    const Point along = points[j] - points[i];
+    if (length(along) < least || along.x == 0) break;
+    const double off = std::abs(along.y * way.x - along.x * way.y) / (std::abs(along.x) * std::max(std::abs(way.y), 0.1 * way.x));
+    const auto middle = std::span(points).subspan(i + (j - i) / 4, 1 + (j - i) / 2);
+    out.push_back({off, {middle.begin(), middle.end()}});
+  }
+  return out;
+}
+
+// Places along curves where their slope, pixels over pixels, is about that of the way; where it nowhere is, those where it comes nearest.
+Occupied like(const ChartPicture& picture, Point way, const Axes& axes) {
+  constexpr double kAbout = 0.12, kWorse = 1.2;
+  std::vector<Stretch> all;
   double least = INFINITY;
   for (const SeriesPicture& s : picture.series)
-    for (const auto& curve : curves(s.x, s.y, axes)) {
-      const Point way = curve.back() - curve.front();
-      if (s.reference || s.right || way.x == 0) continue;
-      // Between angles: steep slopes differ little.
-      const double off = std::abs(std::atan(way.y / way.x) - std::atan(slope));
-      if (off < least - 1e-9) least = off, best = curve;
-    }
-  if (best.empty()) return occupied;
+    for (const auto& curve : curves(s.x, s.y, axes))
+      for (const std::vector<Point>& points : sampled(curve, axes.room)) {
+        if (s.reference || s.right) continue;
+        for (Stretch& stretch : stretches(points, way)) least = std::min(least, stretch.off), all.push_back(std::move(stretch));
+      }
   Occupied out;
-  out.add(best, axes.room);
+  for (const Stretch& stretch : all)
+    if (stretch.off <= std::max(kAbout, kWorse * least)) out.add(stretch.middle, axes.room);
   return out;
 }
 
@@ -44,8 +65,9 @@ std::optional<std::array<double, 2>> fixed_range(const ChartPicture& chart, Side
   if (x && chart.polar) return std::array{0.0, 360.0};
   if (x && !chart.categories.empty()) return std::array{0.5, static_cast<double>(chart.categories.size()) + 0.5};
   if (chart.map && side != Side::right) {
+    if (chart.polar) return std::array{0.0, polar_borders(chart.map->y, false).back()};
     const std::vector<double> borders = cell_borders(x ? chart.map->x : chart.map->y, x ? chart.log_x : chart.log_y);
-    return std::array{chart.polar ? 0 : borders.front(), borders.back()};
+    return std::array{borders.front(), borders.back()};
   }
   return x ? chart.x_range : side == Side::left ? chart.y_range : std::nullopt;
 }
@@ -142,28 +164,30 @@ std::vector<std::vector<Point>> curves(const std::vector<double>& x, const std::
 }
 
 void draw_guide(Canvas& canvas, const ChartPicture& picture, const SlopeGuide& guide, const Axes& axes, Occupied& occupied) {
-  const double ratio = steepness(axes.x, axes.y, guide.slope), em = axes.em, size = small_text * em, pad = 0.35 * em;
+  const double ratio = steepness(axes.x, axes.y, guide.slope), steep = std::abs(ratio), em = axes.em, size = small_text * em, pad = 0.35 * em;
   const bool plain = guide.label.empty(), rises = ratio >= 0;
   const std::string label = plain ? number(guide.slope) : guide.label;
   const Point extent = text_extent(label, size);
-  const Occupied own = like(picture, ratio, axes, occupied);
-  // Rather small beside its curve than large elsewhere.
-  for (const auto& [share, farthest] : {std::pair{0.16, 2.5}, {0.11, 2.5}, {0.07, 2.5}, {0.16, INFINITY}, {0.11, INFINITY}, {0.07, INFINITY}}) {
-    double run = share * axes.room.width();
-    if (std::abs(ratio) * run > 1.6 * share * axes.room.height()) run = 1.6 * share * axes.room.height() / std::abs(ratio);
+  const double wide = axes.room.width(), high = axes.room.height();
+  // Higher than a letter where there is room, though the slope is slight.
+  const double full = std::max(std::min(0.16 * wide, 0.26 * high / steep), std::min(0.35 * wide, 1.2 * em / steep));
+  // Rather small, and without the length 1 of its level side, beside its curve than large elsewhere.
+  constexpr double kNear = 2.5, kFar = INFINITY;  // em
+  for (const auto& [share, one, farthest] : {std::tuple{1.0, true, kNear}, {0.7, true, kNear}, {0.45, true, kNear}, {0.7, false, kNear}, {0.45, false, kNear}, {0.3, false, kNear}, {0.45, true, kFar}, {0.3, false, kFar}}) {
     // With room for the labels on the right, and on the level side: below where the line rises, else above.
-    const double up = std::abs(ratio * run), width = run + extent.x + 2 * pad, height = up + 1.2 * em + pad;
-    const std::optional<Point> place = near_place(occupied, own, axes.room, {width, height}, 0.5 * em);
+    const double run = share * full, up = steep * run, level = plain && one ? 1.2 * em : pad, width = run + extent.x + 2 * pad, height = std::max(up, extent.y) + level + pad;
+    const Occupied own = like(picture, {run, ratio * run}, axes);
+    const std::optional<Point> place = near_place(occupied, own, axes.room, {width, height}, (one ? 0.5 : 0.3) * em);
     if (!place || own.distance({place->x, place->y, place->x + width, place->y + height}) > farthest * em) continue;
     const Point at = *place;
     occupied.add(Box{at.x, at.y, at.x + width, at.y + height});
-    const double low = at.y + (rises ? 1.2 * em : pad);
+    const double low = at.y + (rises ? level : pad);
     const Point a{at.x, rises ? low : low + up}, b{at.x + run, rises ? low + up : low};
     const std::array<Point, 3> triangle{a, Point{b.x, a.y}, b};
     canvas.convex(triangle, {235, 235, 235});
     canvas.polyline(triangle, std::max(1.2, em / 16), reference_grey, {}, true);
     canvas.text({b.x + pad, low + up / 2}, label, {.size = size, .up = Align::middle, .colour = reference_grey});
-    if (plain)
+    if (plain && one)
       canvas.text({at.x + run / 2, rises ? low - 0.15 * em : a.y + 0.1 * em}, "1",
                   {.size = size, .across = Align::middle, .up = rises ? Align::high : Align::low, .colour = reference_grey});
     return;

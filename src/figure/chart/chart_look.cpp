@@ -6,6 +6,7 @@ namespace dotyk::figure {
 
 namespace {
 
+constexpr double legend_letters = 0.92;  // em
 constexpr Colour front_yellow{255, 232, 150};
 constexpr std::array markers{Marker::disc, Marker::square, Marker::triangle, Marker::diamond,
                              Marker::down_triangle, Marker::ring, Marker::cross, Marker::plus};
@@ -102,22 +103,59 @@ void Pen::whisker(Canvas& canvas, const std::array<Point, 2>& ends, const Look& 
   for (const Point& end : ends) canvas.line(end - cap, end + cap, width, look.colour);
 }
 
+namespace {
+
+bool look_alike(const Look& a, const Look& b) {
+  const auto all = [](const Look& l) { return std::tuple(l.data.reference ? Marker::disc : l.marker, l.dashed, l.data.style, l.data.reference, l.data.front, l.data.crossed, l.data.bars, l.data.low.empty()); };
+  return a.colour == b.colour && all(a) == all(b);
+}
+
+LegendEntry entry(const std::string& name, const Look& look, double em) {
+  constexpr double kMarker = 0.8, kLine = 2;  // em
+  const SeriesPicture& s = look.data;
+  const bool marker = s.style == SeriesStyle::points && !s.reference && !s.front && (s.low.empty() || s.bars);
+  return {name, [pen = Pen{em}, look](Canvas& canvas, const Box& box) { pen.sample(canvas, look, box); }, marker ? kMarker : kLine};
+}
+
+}  // namespace
+
 bool legend_serves(const ChartPicture& with, const ChartPicture& other) {
-  const auto look = [](const Look& l) { return std::tuple(l.data.reference ? Marker::disc : l.marker, l.dashed, l.data.style, l.data.reference, l.data.front, l.data.crossed, l.data.bars, l.data.low.empty()); };
   const std::vector<Look> those = named(with);
   const auto found = [&](const Look& y) {
-    return std::ranges::any_of(those, [&](const Look& x) { return x.colour == y.colour && name_of(x, with) == name_of(y, other) && look(x) == look(y); });
+    return std::ranges::any_of(those, [&](const Look& x) { return name_of(x, with) == name_of(y, other) && look_alike(x, y); });
   };
   const bool cells = !other.map || (with.map && with.map->names == other.map->names);
-  return cells && std::ranges::all_of(named(other), found);
+  return cells && !names_beside(with) && !names_beside(other) && std::ranges::all_of(named(other), found);
+}
+
+Legend common_legend(const std::vector<ChartPicture>& panels, double em, double width) {
+  std::vector<LegendEntry> entries;
+  std::vector<std::pair<std::string, Look>> seen;
+  const ChartMap* cells = nullptr;
+  bool shared = false;
+  for (const ChartPicture& panel : panels) {
+    if (names_beside(panel)) return Legend({}, em);
+    for (const Look& look : named(panel)) {
+      const std::string name = name_of(look, panel);
+      const auto same = std::ranges::find_if(seen, [&](const auto& other) { return other.first == name || look_alike(other.second, look); });
+      if (same == seen.end()) seen.emplace_back(name, look);
+      else if (same->first != name || !look_alike(same->second, look)) return Legend({}, em);
+      else shared = true;
+    }
+    if (!panel.map || map_legend(*panel.map).empty()) continue;
+    if (cells && cells->names != panel.map->names) return Legend({}, em);
+    shared = shared || cells;
+    if (!cells || map_legend(*panel.map).size() > map_legend(*cells).size()) cells = &*panel.map;
+  }
+  if (cells) entries = map_legend(*cells);
+  for (const auto& [name, look] : seen) entries.push_back(entry(name, look, em));
+  return Legend(shared ? std::move(entries) : std::vector<LegendEntry>(), legend_letters * em, width);
 }
 
 Legend chart_legend(const ChartPicture& picture, double em, double width, const std::set<const SeriesPicture*>& also) {
-  constexpr double kLetters = 0.92;
   std::vector<LegendEntry> entries = picture.map ? map_legend(*picture.map) : std::vector<LegendEntry>();
-  for (const Look& look : named(picture, also))
-    entries.push_back({name_of(look, picture), [pen = Pen{em}, look](Canvas& canvas, const Box& box) { pen.sample(canvas, look, box); }});
-  return Legend(std::move(entries), kLetters * em, width);
+  for (const Look& look : named(picture, also)) entries.push_back(entry(name_of(look, picture), look, em));
+  return Legend(std::move(entries), legend_letters * em, width);
 }
 
 }  // namespace dotyk::figure

@@ -42,6 +42,9 @@ struct Pen {
 
 // Has the legend of one all that the other's has, with the same names and looks?
 bool legend_serves(const ChartPicture& with, const ChartPicture& other);
+// Of all panels, each entry once; empty where they have none in common, a name has two looks or a look two names, or some have theirs
+// beside their curves. The panels must outlive it.
+Legend common_legend(const std::vector<ChartPicture>& panels, double em, double width);
 // In rows no wider than so many pixels; 0: one name below the other. The picture must outlive it.
 // `also`: reference curves that are in it though others have their names beside them.
 Legend chart_legend(const ChartPicture& picture, double em, double width, const std::set<const SeriesPicture*>& also = {});

@@ -67,6 +67,15 @@ std::vector<double> cell_borders(const std::vector<double>& at, bool log) {
   return out;
 }
 
+std::vector<double> polar_borders(const std::vector<double>& at, bool angles) {
+  constexpr double kCircle = 360;
+  std::vector<double> out = cell_borders(at, false);
+  const double gap = kCircle - (at.back() - at.front()), first = out[1] - out[0], last = out.back() - out[out.size() - 2];
+  if (at.size() > 1 && !(angles && gap > 0 && gap < 0.75 * (first + last))) out.front() = at.front(), out.back() = at.back();
+  if (!angles) out.front() = std::max(0.0, out.front());
+  return out;
+}
+
 Ticks map_ticks(const std::vector<double>& at) {
   Ticks out;
   for (std::size_t i = 0; i < at.size(); ++i) {
@@ -78,9 +87,8 @@ Ticks map_ticks(const std::vector<double>& at) {
 
 void draw_map(Canvas& canvas, const ChartMap& map, const Axes& axes) {
   const ColourScale scale = scale_of(map);
-  const std::vector<double> x = cell_borders(map.x, axes.x.log);
-  std::vector<double> y = cell_borders(map.y, axes.y.log);
-  if (axes.pole) y.front() = std::max(0.0, y.front());
+  const std::vector<double> x = axes.pole ? polar_borders(map.x, true) : cell_borders(map.x, axes.x.log);
+  const std::vector<double> y = axes.pole ? polar_borders(map.y, false) : cell_borders(map.y, axes.y.log);
   for (std::size_t j = 0; j < map.y.size(); ++j)
     for (std::size_t i = 0; i < map.x.size(); ++i) {
       const double value = map.values[j * map.x.size() + i];
@@ -103,9 +111,10 @@ std::vector<LegendEntry> map_legend(const ChartMap& map) {
       canvas.outline(box, std::max(1.0, high / 10), cross_grey);
     };
   };
+  constexpr double kCell = 1.2;  // em
   std::vector<LegendEntry> out;
-  for (std::size_t k = 0; k < map.names.size(); ++k) out.push_back({map.names[k], cell(name_colours[k], false)});
-  if (std::ranges::any_of(map.values, [](double v) { return std::isnan(v); })) out.push_back({"not applicable", cell(empty_cell, true)});
+  for (std::size_t k = 0; k < map.names.size(); ++k) out.push_back({map.names[k], cell(name_colours[k], false), kCell});
+  if (std::ranges::any_of(map.values, [](double v) { return std::isnan(v); })) out.push_back({"not applicable", cell(empty_cell, true), kCell});
   return out;
 }
 

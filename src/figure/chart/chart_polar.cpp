@@ -42,6 +42,12 @@ std::vector<Box> radius_boxes(const Axes& axes, double degrees) {
   return out;
 }
 
+// Degrees between names of angles: where the circle is too small for all, those of the axes.
+int names_every(const Axes& axes) {
+  constexpr int kBelow = 270, kAxes = 90;
+  return angle_box(axes, kBelow).grown(0.3 * axes.em).overlaps(angle_box(axes, kBelow + ray_every)) ? kAxes : ray_every;
+}
+
 // Between two rays, such that labels meet least.
 double freest_ray(const Axes& axes, const Occupied& occupied) {
   double best = 0, least = INFINITY;
@@ -61,14 +67,17 @@ void place_polar(Axes& axes) {
   const Point beside = polar_rim(axes.em);
   axes.pole = axes.room.centre();
   axes.y.from = 0, axes.y.to = std::max(1.0, std::min(axes.room.width() / 2 - beside.x, axes.room.height() / 2 - beside.y));
-  axes.y_ticks = linear_ticks(axes.y.low, axes.y.high, std::clamp(static_cast<int>(axes.y.to / (1.8 * axes.em)), 2, 5));
-  std::erase_if(axes.y_ticks.ticks, [&](const Tick& t) { return t.value <= 0 || t.label.empty(); });
+  for (int n = std::clamp(static_cast<int>(axes.y.to / (1.8 * axes.em)), 2, 5); n <= 5; ++n) {
+    axes.y_ticks = linear_ticks(axes.y.low, axes.y.high, n);
+    std::erase_if(axes.y_ticks.ticks, [&](const Tick& t) { return t.value <= 0 || t.label.empty(); });
+    if (axes.y_ticks.ticks.size() > 1) break;
+  }
   axes.x_ticks = {};
 }
 
 void occupy_polar(const Axes& axes, Occupied& occupied) {
   occupied.add(circle(axes, axes.y.to), axes.room);
-  for (int degrees = 0; degrees < 360; degrees += ray_every) occupied.add(angle_box(axes, degrees));
+  for (int degrees = 0; degrees < 360; degrees += names_every(axes)) occupied.add(angle_box(axes, degrees));
 }
 
 void draw_polar_grid(Canvas& canvas, const Axes& axes) {
@@ -79,7 +88,7 @@ void draw_polar_grid(Canvas& canvas, const Axes& axes) {
 }
 
 void draw_polar_labels(Canvas& canvas, const Axes& axes, const Occupied& occupied) {
-  for (int degrees = 0; degrees < 360; degrees += ray_every)
+  for (int degrees = 0; degrees < 360; degrees += names_every(axes))
     canvas.text(angle_box(axes, degrees).centre(), name_of(degrees), {.size = axes.em, .across = Align::middle, .up = Align::middle});
   const std::vector<Box> boxes = radius_boxes(axes, freest_ray(axes, occupied));
   for (std::size_t k = 0; k < boxes.size(); ++k)

@@ -1,6 +1,7 @@
 #include "figure/chart/chart_series.hpp"
 
 #include <limits>
+#include <utility>
 
 #include "figure/chart/hidden.hpp"
 
@@ -13,6 +14,42 @@ bool has_markers(const SeriesPicture& s) { return s.style != SeriesStyle::line &
 
 bool dense(const std::vector<Point>& curve, double spacing) {
   return curve.size() > 2 && std::abs(curve.back().x - curve.front().x) / static_cast<double>(curve.size() - 1) < spacing && curve.size() > 60;
+}
+
+// The corners of the curve.
+std::vector<Point> without_straight(const std::vector<Point>& curve) {
+  std::vector<Point> out;
+  for (std::size_t i = 0; i < curve.size(); ++i) {
+    if (!out.empty() && i + 1 < curve.size()) {
+      const Point a = curve[i] - out.back(), b = curve[i + 1] - curve[i];
+      if (a.x * b.x + a.y * b.y > 0 && std::abs(a.x * b.y - a.y * b.x) < 1e-3 * length(b)) continue;
+    }
+    out.push_back(curve[i]);
+  }
+  return out;
+}
+
+// A solid line, cut off at the room's edges across its whole width: the canvas cuts polygons so, of lines it only looks at the middle.
+void stroke_within(Canvas& canvas, const Box& room, const std::vector<Point>& curve, double width, Colour colour) {
+  const std::vector<Point> points = without_straight(curve);
+  std::vector<Point> whole;
+  const auto finish = [&] { canvas.polyline(std::exchange(whole, {}), width, colour); };
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    Point p = points[i], q = points[i + 1];
+    const double half = width / 2, far = length(q - p);
+    if (far == 0 || !crop(p, q, room)) continue;
+    const Point side = half / far * Point{points[i].y - points[i + 1].y, points[i + 1].x - points[i].x};
+    const std::array corners{p - side, q - side, q + side, p + side};
+    if (std::ranges::all_of(corners, [&](Point corner) { return room.holds(corner, 1e-6); })) {
+      if (whole.empty() || length(p - whole.back()) > 0) finish(), whole = {p};
+      whole.push_back(q);
+      continue;
+    }
+    canvas.convex(corners, colour);
+    if (i > 0) canvas.disc(points[i], half, colour);
+    if (i + 2 < points.size()) canvas.disc(points[i + 1], half, colour);
+  }
+  finish();
 }
 
 }  // namespace
@@ -44,7 +81,7 @@ void SeriesDrawing::occupy(Occupied& occupied) const {
 void SeriesDrawing::draw_front(const Look& look) {
   if (!look.data.front) return;
   for (const auto& curve : curves(look.data.x, look.data.y, axes_.of(look.data))) {
-    canvas_.polyline(curve, pen_.front_width(), look.colour);
+    stroke_within(canvas_, axes_.left.room, curve, pen_.front_width(), look.colour);
     for (const Point& end : {curve.front(), curve.back()}) canvas_.disc(end, pen_.front_width() / 2, look.colour);
   }
 }
@@ -65,6 +102,10 @@ void SeriesDrawing::draw_lines() {
   constexpr int kDeepest = 3;
   const double width = pen_.line_width(), near = 0.75 * width, rim = 0.75 * width, least = 3 * pen_.em;
   const Box& room = axes_.left.room;
+  const auto stroke = [&](const std::vector<Point>& curve, const Look& look, double broader) {
+    if (look.dashed) pen_.stroke(canvas_, curve, look, broader);
+    else stroke_within(canvas_, room, curve, width + 2 * broader, look.colour);
+  };
   std::vector<std::vector<std::vector<Point>>> lines;
   std::vector<Neighbourhood> solid;  // about those that hide what is beneath
   std::vector<std::size_t> of;       // whose they are
@@ -79,8 +120,8 @@ void SeriesDrawing::draw_lines() {
   for (std::size_t k = 0; k < looks_.size(); ++k) {
     const std::vector<Neighbourhood> later(solid.begin() + (std::ranges::upper_bound(of, k) - of.begin()), solid.end());
     for (const auto& curve : lines[k]) {
-      pen_.stroke(canvas_, curve, looks_[k]);
-      for (const HiddenPart& part : hidden_parts(curve, later, room, least)) pen_.stroke(canvas_, part.points, looks_[k], std::min(part.depth, kDeepest) * rim);
+      stroke(curve, looks_[k], 0);
+      for (const HiddenPart& part : hidden_parts(curve, later, room, least)) stroke(part.points, looks_[k], std::min(part.depth, kDeepest) * rim);
     }
   }
 }
@@ -112,20 +153,24 @@ std::vector<Point> SeriesDrawing::marked(const SeriesPicture& s) const {
   return out;
 }
 
-// In series without lines a marker that lies beneath later ones is larger. Of curves draw_lines() shows what is beneath.
+// In series without lines markers of one place are nested, those above smaller: all together are little larger than one. Of curves
+// draw_lines() shows what is beneath.
 void SeriesDrawing::draw_markers() {
-  constexpr std::ptrdiff_t kDeepest = 3;
-  const double near = 0.75 * pen_.line_width(), rim = 0.1 * pen_.em;
+  constexpr double kStep = 0.16, kMost = 0.42, kMore = 0.04;  // em from diameter to diameter, from the least to the greatest, and wider for each
+  const double near = 0.75 * pen_.line_width();
   const Box room = axes_.left.room.grown(1);
   std::vector<std::vector<Point>> places;
   for (const Look& look : looks_) places.push_back(marked(look.data));
-  std::vector<Neighbourhood> later(looks_.size(), Neighbourhood(room, near));
+  std::vector<Neighbourhood> about(looks_.size(), Neighbourhood(room, near));
   for (std::size_t k = 0; k < looks_.size(); ++k)
-    for (const Point& p : places[k]) later[k].add(p);
+    for (const Point& p : places[k]) about[k].add(p);
   for (std::size_t k = 0; k < looks_.size(); ++k)
     for (const Point& p : places[k]) {
-      const auto above = looks_[k].data.style != SeriesStyle::points ? 0 : std::count_if(later.begin() + static_cast<std::ptrdiff_t>(k) + 1, later.end(), [&](const Neighbourhood& n) { return n.holds(p); });
-      pen_.mark(canvas_, looks_[k], p, static_cast<double>(std::min(above, kDeepest)) * rim);
+      double above = 0, below = 0;
+      for (std::size_t other = 0; other < looks_.size(); ++other)
+        if (other != k && looks_[k].data.style == SeriesStyle::points && about[other].holds(p)) ++(other > k ? above : below);
+      const double step = std::min(kStep, kMost / std::max(1.0, above + below)) * pen_.em;
+      pen_.mark(canvas_, looks_[k], p, (step * (above - below) / 2 + kMore * pen_.em * (above + below)) / 2);
     }
 }
 

@@ -1,5 +1,7 @@
 #include "figure/chart/chart_texts.hpp"
 
+#include "base/error.hpp"
+#include "base/text.hpp"
 #include "figure/chart/chart_look.hpp"
 
 namespace dotyk::figure {
@@ -73,7 +75,7 @@ std::optional<PlotText> name_beside(const ChartPicture& picture, const ChartAxes
   const Point level = text_extent(s.name, size);
   const auto lines = curves(s.x, s.y, own);
   for (const bool upright : {false, true})
-    if (const auto box = place_along(lines, occupied, others, own, upright ? Point{level.y, level.x} : level)) return PlotText{{size, {s.name}}, *box, reference_grey, upright};
+    if (const auto box = place_along(lines, occupied, others, own, upright ? Point{level.y, level.x} : level)) return PlotText{{size, {s.name}}, *box, picture.map ? axes_ink : reference_grey, upright};
   return std::nullopt;
 }
 
@@ -92,8 +94,8 @@ Point extent_of(const FittedText& text) {
   return out;
 }
 
-// As near to its point as can be, but not upon a marker there.
-PlotText note_near(const ChartNote& note, const ChartAxes& axes, const Occupied& occupied) {
+// As near to its point as can be, but not upon a marker there; none where there is no free place.
+std::optional<PlotText> note_near(const ChartNote& note, const ChartAxes& axes, const Occupied& occupied) {
   constexpr double kNearest = 0.7, kFarthest = 10, kMargin = 0.25;  // em
   const double em = axes.left.em, from = 0.35 * em;
   const Point at = axes.left.at(note.x, note.y);
@@ -109,19 +111,33 @@ PlotText note_near(const ChartNote& note, const ChartAxes& axes, const Occupied&
           const Box box = within(beside(at, across, up, extent_of(text), gap), axes.left.room, kMargin * em, up != 0);
           if ((up != 0 || std::abs(across) == 1) && free(box, occupied, axes.left.room, kMargin * em)) return written(text, box);
         }
-  return written(ways.back(), within(beside(at, 0, 1, extent_of(ways.back()), kNearest * em), axes.left.room, kMargin * em, true));
+  for (const FittedText& text : ways)
+    if (const auto middle = place_beside(occupied, axes.left.room, at, extent_of(text), kMargin * em)) return written(text, Box::about(*middle, extent_of(text)));
+  return std::nullopt;
+}
+
+void check_inside(const ChartNote& note, const Axes& axes) {
+  const auto within = [](const Axis& axis, double v) { return v >= axis.low && v <= axis.high; };
+  if ((axes.pole || within(axes.x, note.x)) && within(axes.y, note.y)) return;
+  throw InputError(text("the note \"", note.text, "\" is at (", note.x, ", ", note.y, "), but the axes go from (", axes.x.low, ", ", axes.y.low, ") to (", axes.x.high, ", ", axes.y.high, ")"));
 }
 
 }  // namespace
 
-std::vector<PlotText> plot_texts(const ChartPicture& picture, const ChartAxes& axes, Occupied& occupied, SeriesSet& crowded) {
+std::vector<PlotText> plot_texts(const ChartPicture& picture, const ChartAxes& axes, Occupied& occupied, SeriesSet& crowded, const ChartNote*& crowded_note) {
   std::vector<PlotText> out;
   const auto add = [&](PlotText text) {
     occupied.add(text.box);
     if (text.leader) occupied.add({(*text.leader)[0], (*text.leader)[1]}, axes.left.room);
     out.push_back(std::move(text));
   };
-  for (const ChartNote& note : picture.notes) add(note_near(note, axes, occupied));
+  crowded_note = nullptr;
+  for (const ChartNote& note : picture.notes) {
+    check_inside(note, axes.left);
+    auto text = crowded_note ? std::nullopt : note_near(note, axes, occupied);
+    if (text) add(std::move(*text));
+    else if (!crowded_note) crowded_note = &note;
+  }
   if (!names_beside(picture)) return out;
   for (const SeriesPicture& s : picture.series) {
     if (!s.reference || s.name.empty() || crowded.contains(&s)) continue;
@@ -133,9 +149,8 @@ std::vector<PlotText> plot_texts(const ChartPicture& picture, const ChartAxes& a
 
 void draw(Canvas& canvas, const PlotText& text, double em) {
   if (text.leader) canvas.line((*text.leader)[0], (*text.leader)[1], std::max(1.0, em / 20), text.colour);
-  canvas.box(text.box, {255, 255, 255}, 0.85);
   const Point first = text.box.centre() + Point{0, text.words.depth() / 2};
-  canvas.text(first, text.words, {.across = Align::middle, .up = Align::middle, .upright = text.upright, .colour = text.colour});
+  canvas.text(first, text.words, {.across = Align::middle, .up = Align::middle, .upright = text.upright, .colour = text.colour, .halo = true});
 }
 
 }  // namespace dotyk::figure

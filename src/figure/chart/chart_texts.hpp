@@ -16,9 +16,9 @@ struct PlotText {
 };
 
 // At free places; what they take is added to `occupied`. A reference curve beside which there is none is added to `crowded`, and
-// has no name in the plot from then on.
+// has no name in the plot from then on. A note for which there is none becomes `crowded_note`. Throws InputError of a note beyond the axes.
 using SeriesSet = std::set<const SeriesPicture*>;
-std::vector<PlotText> plot_texts(const ChartPicture& picture, const ChartAxes& axes, Occupied& occupied, SeriesSet& crowded);
+std::vector<PlotText> plot_texts(const ChartPicture& picture, const ChartAxes& axes, Occupied& occupied, SeriesSet& crowded, const ChartNote*& crowded_note);
 void draw(Canvas& canvas, const PlotText& text, double em);
 
 }  // namespace dotyk::figure

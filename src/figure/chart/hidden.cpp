@@ -38,7 +38,8 @@ double length_of(const std::vector<Point>& curve) {
   return sum;
 }
 
-// Points along the part of the curve in the room, close to each other; a gap begins a new one.
+}  // namespace
+
 std::vector<std::vector<Point>> sampled(const std::vector<Point>& curve, const Box& room) {
   constexpr double kSpacing = 3;
   std::vector<std::vector<Point>> out;
@@ -55,8 +56,6 @@ std::vector<std::vector<Point>> sampled(const std::vector<Point>& curve, const B
   }
   return out;
 }
-
-}  // namespace
 
 std::vector<HiddenPart> hidden_parts(const std::vector<Point>& curve, const std::vector<Neighbourhood>& later, const Box& room, double least) {
   std::vector<HiddenPart> out;

@@ -22,6 +22,9 @@ private:
   std::vector<bool> cells_;  // which have a point in them
 };
 
+// Points along the part of the curve in the room, close to each other; a gap begins a new one.
+std::vector<std::vector<Point>> sampled(const std::vector<Point>& curve, const Box& room);
+
 // A part of a curve that so many later curves hide.
 struct HiddenPart {
   std::vector<Point> points;

@@ -104,6 +104,34 @@ std::array<double, 2> range_of(const Arguments& given, const char* name) {
   return {ends[0], ends[1]};
 }
 
+/// The least and greatest of the values that an axis can show; the first is the greater where there are none.
+std::array<double, 2> ends_of(const std::vector<const std::vector<double>*>& data, bool log) {
+  std::array<double, 2> ends{INFINITY, -INFINITY};
+  for (const std::vector<double>* values : data)
+    for (const double v : *values)
+      if (std::isfinite(v) && (!log || v > 0)) ends = {std::min(ends[0], v), std::max(ends[1], v)};
+  return ends;
+}
+
+/// Refuses axes on which nothing would be seen.
+void check_seen(const figure::ChartPicture& chart) {
+  std::vector<const std::vector<double>*> x, left, right;
+  for (const SeriesPicture& s : chart.series) {
+    x.insert(x.end(), {&s.x, &s.x_low, &s.x_high});
+    std::vector<const std::vector<double>*>& y = s.right ? right : left;
+    y.insert(y.end(), {&s.y, &s.low, &s.high});
+  }
+  for (const auto& [name, data, log, range] : {std::tuple{"'x_range'", x, chart.log_x, chart.x_range}, std::tuple{"'y_range'", left, chart.log_y, chart.y_range}}) {
+    const auto [least, most] = ends_of(data, log);
+    if (range && least <= most && ((*range)[1] < least || (*range)[0] > most))
+      throw InputError(text(name, " goes from ", (*range)[0], " to ", (*range)[1], ", but the data from ", least, " to ", most));
+  }
+  if (!right.empty() && !(ends_of(right, chart.log_y)[0] < INFINITY)) throw InputError("no series on the axis on the right has a value that it can show");
+  const bool strip = std::ranges::any_of(chart.series, [](const SeriesPicture& s) { return s.y.empty(); });
+  if (chart.map || left.empty()) return;
+  if (!(ends_of(x, chart.log_x)[0] < INFINITY) || (!strip && !(ends_of(left, chart.log_y)[0] < INFINITY))) throw InputError("no series has a point that the axes can show");
+}
+
 void read_chart(const Arguments& given, figure::ChartPicture& chart) {
   given.fill(chart);
   if (given.has("x_range")) chart.x_range = range_of(given, "x_range");
@@ -113,6 +141,7 @@ void read_chart(const Arguments& given, figure::ChartPicture& chart) {
   chart.log_y = log.find('y') != std::string::npos;
   if (!given.has("series") && !given.has("map")) throw InputError("missing key 'series' or 'map'");
   for (const Arguments& series : given.tables("series")) chart.series.push_back(series_of(series));
+  check_seen(chart);
   for (const Arguments& note : given.tables("notes")) chart.notes.push_back(note.filled<figure::ChartNote>());
   if (given.has("map")) chart.map = map_of(given.table("map"));
   if (given.has("slopes"))
