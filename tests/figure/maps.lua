@@ -210,7 +210,7 @@ for _, case in ipairs{
   { three, { cut = { point = { 0, 0, 1.5 }, normal = { 1e-200, 0, 0 } } }, "'cut' leaves nothing of the bodies", "lie within {" },
   { three, { window = { 9, 0, 0, 10, 1, 1 } }, "window shows no body", "lie within {" }, { three, { field = "gap", contact = false }, '"gap" is one of contacts', "'contact' false" },
   { solved(alone), { field = "slip" }, '"slip" is one of contacts', "this scene has none" }, { solved(round_scene), { map = round_all }, "closed and not a cylinder" },
-  { two, { width = 30 }, "refused.svg is 30 mm wide", "mm wide at least" }, { two, { notes = many }, "no room for the note" } } do
+  { two, { width = 30 }, "refused.svg has no room", "30 mm wide", "mm wide at least" }, { two, { notes = many }, "no room for the note" } } do
   case[2].file = "refused.svg"
   refused(function() case[1]:render(case[2]) end, "render: ", table.unpack(case, 3))
 end

@@ -41,7 +41,7 @@ std::string number(double value, int digits = 3);
 
 // The same in the unit of an axis, 10^exponent, as its labels are: no second
 // power of ten; what is nearer to zero than 0.001 is said to be so.
-std::string scaled_number(double value, int exponent);
+std::string scaled_number(double value, int exponent, int digits = 3);
 
 inline constexpr Colour reference_grey{90, 90, 90};
 inline constexpr double small_text = 0.85;  // in em

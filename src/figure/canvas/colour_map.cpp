@@ -92,7 +92,12 @@ void leave_out_peaks(ColourScale& scale, std::vector<double> values) {
   shorten(scale.low, beyond);
 }
 
-std::string extreme(const char* name, double value, const Ticks& ticks) { return std::string(name) + " " + scaled_number(value, ticks.exponent); }
+// With three digits, or as many as tell values on the bar apart.
+std::string extreme(const char* name, double value, const ColourScale& scale, const Ticks& ticks) {
+  const double apart = std::abs(value) / std::max(scale.high - scale.low, 1e-300);
+  const int digits = std::clamp(2 + static_cast<int>(std::ceil(std::log10(std::max(apart, 1.0)))), 3, 9);
+  return std::string(name) + " " + scaled_number(value, ticks.exponent, digits);
+}
 
 }  // namespace
 
@@ -130,10 +135,10 @@ ColourScale colour_scale(const ScenePicture& p, const std::optional<Box>& window
   // A field without sign may dip below zero by rounding, or by recovery.
   const double lesser = std::min(-scale.low, scale.high), greater = std::max(-scale.low, scale.high);
   scale.diverging = p.field_signed || lesser > 0.02 * greater;
-  if (!(scale.high - scale.low > 1e-12 * std::max(std::abs(scale.low), std::abs(scale.high)))) {
-    // A constant field: a bar of some height around it.
+  if (!(scale.high - scale.low > 1e-6 * std::max(std::abs(scale.low), std::abs(scale.high)))) {
+    // A constant field: a bar of some height around it; zero, as the least of its values where it has no sign.
     const double half = scale.low == 0 ? 1 : 0.1 * std::abs(scale.low);
-    scale.low -= half, scale.high += half;
+    scale.low -= scale.low == 0 && !p.field_signed ? 0 : half, scale.high += half;
   }
   return scale;
 }
@@ -155,7 +160,7 @@ double colour_bar_width(const ColourScale& scale, const FieldLabel& field, doubl
   if (!scale.shown || field.name.empty()) return 0;
   const Ticks ticks = bar_ticks(scale);
   const double beside = (bar + tick + pad) * em + widest_label(ticks, em) + 0.4 * em + 1.3 * em;
-  const auto above = [&](const char* name, double value) { return text_extent(extreme(name, value, ticks), small_label * em).x; };
+  const auto above = [&](const char* name, double value) { return text_extent(extreme(name, value, scale, ticks), small_label * em).x; };
   return std::max({beside, above("max", scale.greatest), above("min", scale.least), longest_word(label(field, ticks.exponent), least_letters * em)});
 }
 
@@ -199,9 +204,9 @@ void draw_colour_bar(Canvas& canvas, const ColourScale& scale, const FieldLabel&
     canvas.text({box.right + (tick + pad) * em, y}, t.label, {.size = em, .up = Align::middle});
   }
   TextStyle end{.size = small_label * em, .colour = {70, 70, 70}};
-  canvas.text({box.left, box.top + tip_above + ends * em}, extreme("max", scale.greatest, ticks), end);
+  canvas.text({box.left, box.top + tip_above + ends * em}, extreme("max", scale.greatest, scale, ticks), end);
   end.up = Align::high;
-  canvas.text({box.left, box.bottom - tip_below - ends * em}, extreme("min", scale.least, ticks), end);
+  canvas.text({box.left, box.bottom - tip_below - ends * em}, extreme("min", scale.least, scale, ticks), end);
   if (upright)
     canvas.text({box.right + (tick + pad) * em + widest_label(ticks, em) + 0.4 * em, box.centre().y}, name,
                 {.size = fitting_size(name, em, box.height()), .up = Align::middle, .upright = true});

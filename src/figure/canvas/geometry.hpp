@@ -26,10 +26,11 @@ Vec3 unit(const Vec3& a);                                    // 0 stays 0
 struct View {
   Vec3 right = {1, 0, 0}, up = {0, 1, 0}, towards = {0, 0, 1};
   double scale = 1;  // pixels per unit of length
+  double depth = 0;  // towards the eye, of what is at pixel 0
   Point origin;      // pixel of the world's origin
 
   Vec3 pixel(const Vec3& p) const {
-    return {origin.x + scale * dot(p, right), origin.y + scale * dot(p, up), scale * dot(p, towards)};
+    return {origin.x + scale * dot(p, right), origin.y + scale * dot(p, up), scale * (dot(p, towards) - depth)};
   }
   Point flat(const Vec3& p) const { return {origin.x + scale * dot(p, right), origin.y + scale * dot(p, up)}; }
   Point direction(const Vec3& d) const;  // unit, or 0 where d points at the eye

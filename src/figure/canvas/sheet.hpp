@@ -5,10 +5,11 @@
 
 namespace dotyk::figure {
 
+constexpr double one_column = 85, two_columns = 178;  // mm
+
 inline double printed_width(const Sheet& sheet) {
-  constexpr double kColumn = 85, kTwoColumns = 178;  // mm
-  constexpr int kNarrow = 1300;                      // pixels
-  return sheet.printed.value_or(sheet.width <= kNarrow ? kColumn : kTwoColumns);
+  constexpr int kNarrow = 1300;  // pixels
+  return sheet.printed.value_or(sheet.width <= kNarrow ? one_column : two_columns);
 }
 
 // A point is 1/72 of an inch.

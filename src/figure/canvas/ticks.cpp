@@ -58,11 +58,11 @@ std::string number(double value, int digits) {
   return trimmed(fixed(value, digits - 1 - exponent));
 }
 
-std::string scaled_number(double value, int exponent) {
-  if (exponent == 0 || value == 0 || !std::isfinite(value)) return number(value);
+std::string scaled_number(double value, int exponent, int digits) {
+  if (exponent == 0 || value == 0 || !std::isfinite(value)) return number(value, digits);
   const double scaled = value / std::pow(10.0, exponent), size = std::abs(scaled);
   if (size < 1e-3) return value > 0 ? "< 0.001" : std::string("> ") + minus + "0.001";
-  return size < 1e3 ? number(scaled) : fixed(scaled, 0);
+  return size < 1e3 ? number(scaled, digits) : fixed(scaled, 0);
 }
 
 Ticks linear_ticks(double low, double high, int wanted, double plain) {

@@ -151,7 +151,7 @@ void add_loads(const Solution& s, int index, ScenePicture& picture) {
   const std::vector<scene::LoadArrow> arrows = scene::load_arrows(body);
   const std::size_t step = std::max<std::size_t>(1, arrows.size() / 200);
   for (std::size_t k = 0; k < arrows.size(); k += step)
-    picture.loads.push_back({arrows[k].at, s.displacement(index, arrows[k].at), arrows[k].value});
+    picture.loads.push_back({arrows[k].at, s.displacement(index, arrows[k].at), arrows[k].value, mesh::unit(body.mesh->facet_area_vector(arrows[k].facet))});
 }
 
 /// A field that is zero but for rounding is drawn as zero: one below 1e-9 of the greatest stress or displacement in the scene.
@@ -251,17 +251,20 @@ void move(std::vector<double>& points, const Vec3& by) {
   for (std::size_t i = 0; i < points.size(); ++i) points[i] += by[i % 3];
 }
 
-/// In an exploded view the surface of a contact moves with the body on which it can be seen from above. Its normal points out of the first one.
-void move_contact(ContactPicture& contact, const Vec3& first, const Vec3& second) {
-  Vec3 mean{0, 0, 0};
-  for (const ContactNode& node : contact.nodes) mean = plus(mean, node.normal, node.weight);
-  const bool own = mean[2] >= 0;  // from above
+/// The contact as the second body has it: across the gap, seen from the other side.
+ContactPicture other_side(ContactPicture contact) {
   for (ContactNode& node : contact.nodes) {
-    node.position = plus(node.position, own ? first : second);
-    if (own) continue;
     node.position = plus(node.position, node.normal, node.rest_gap);
     node.displacement = plus(node.displacement, node.normal, node.gap - node.rest_gap);
+    node.normal = plus({0, 0, 0}, node.normal, -1);
   }
+  return contact;
+}
+
+ContactPicture moved(ContactPicture contact, const Vec3& by) {
+  for (ContactNode& node : contact.nodes) node.position = plus(node.position, by);
+  contact.apart = true;
+  return contact;
 }
 
 void add_contacts(const Solution& s, const SceneOptions& options, const std::vector<Vec3>& moves, ScenePicture& picture) {
@@ -269,10 +272,11 @@ void add_contacts(const Solution& s, const SceneOptions& options, const std::vec
   for (const auto& contact : s.scene().contacts) {
     if (contact->kind != Contact::Kind::contact) continue;
     const scene::ContactResult result = s.contact(*contact);
-    ContactPicture& shown = picture.contacts.emplace_back(contact_picture(*contact, result));
+    const int first = s.scene().index_of(contact->first.body.get());
+    ContactPicture shown = contact_picture(*contact, result, s.displacement(first));
     if (of_contacts(options.field)) shown.values = contact_values(shown, options.field);
-    const Vec3& first = moves[s.scene().index_of(contact->first.body.get())];
-    if (options.explode > 0) move_contact(shown, first, contact->second.body ? moves[s.scene().index_of(contact->second.body.get())] : first);
+    if (options.explode > 0 && contact->second.body) picture.contacts.push_back(moved(other_side(shown), moves[s.scene().index_of(contact->second.body.get())]));
+    picture.contacts.push_back(options.explode > 0 ? moved(std::move(shown), moves[first]) : std::move(shown));
     if (!contact->second.body && options.obstacle) {
       RigidPicture obstacle = obstacle_picture(*contact, result, s.loading().move_of(s.scene().index_of(*contact)), picture.deformation, size);
       if (obstacle.points.size() >= 6) picture.obstacles.push_back(std::move(obstacle));
@@ -315,7 +319,7 @@ ScenePicture compose_map(const Solution& s, const Contact& contact, FieldChoice 
   if (s.scene().dimension() == 2) throw InputError("'map' is for contacts in space; this scene is 2-D");
   if (contact.kind != Contact::Kind::contact) throw InputError("'map' is for contacts; this is a glue");
   if (!of_contacts(field)) throw InputError(std::string("a map shows a field of the contact: \"pressure\", \"gap\", \"slip\" or \"status\", not the field \"") + key_of(field) + "\"");
-  ContactPicture shown = contact_picture(contact, s.contact(contact));
+  ContactPicture shown = contact_picture(contact, s.contact(contact), s.displacement(s.scene().index_of(contact.first.body.get())));
   shown.values = contact_values(shown, field);
   ScenePicture picture = contact_map(shown);
   picture.field_label = field_of(field).label;

@@ -62,7 +62,8 @@ GridFile compose_grid(const scene::Solution& solution, const std::string& file);
 // those that an interference presses apart from each other.
 double visible_deformation(const scene::Solution& solution);
 
-ContactPicture contact_picture(const scene::Contact& contact, const scene::ContactResult& result);
+// `displacement`: of the first body.
+ContactPicture contact_picture(const scene::Contact& contact, const scene::ContactResult& result, const std::vector<double>& displacement);
 
 // The obstacle of a contact with a rigid shape, for bodies drawn at x + m u (m is `factor`). The motion d of the shape
 // (`move`) and the gap g₀ at rest are magnified as displacements are; but a plane stays one where the part is far from

@@ -107,14 +107,15 @@ std::vector<int> triangles(const Contact& contact, const scene::ContactResult& r
 
 }  // namespace
 
-ContactPicture contact_picture(const Contact& contact, const scene::ContactResult& result) {
+ContactPicture contact_picture(const Contact& contact, const scene::ContactResult& result, const std::vector<double>& displacement) {
   ContactPicture picture;
   picture.name = contact.first.body->name + (contact.second.body ? " – " + contact.second.body->name : "");
   picture.nodes_per_facet = contact.first.body->mesh->topology().facet_corners;
   picture.facets = contact_facets(contact, result.nodes);
   for (std::size_t k = 0; k < result.nodes.size(); ++k) {
     const scene::ContactNode& n = result.nodes[k];
-    picture.nodes.push_back({n.x, n.displacement, n.normal, n.pressure, n.weight, static_cast<Status>(static_cast<int>(n.status)),
+    // The mean place of what a node of mortar stands for is not where facets have it.
+    picture.nodes.push_back({contact.first.body->mesh->point(n.node), mesh::at_node(displacement, n.node, contact.first.body->dimension()), n.normal, n.pressure, n.weight, static_cast<Status>(static_cast<int>(n.status)),
                              n.shear, contact.second.body ? contact.rows[k].gap : 0, n.gap, mesh::length(n.slip)});
   }
   return picture;

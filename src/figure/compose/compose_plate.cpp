@@ -249,7 +249,7 @@ PlatePicture compose(const plate::Solution& s, const PlateOptions& options) {
   picture.points = mesh.coordinates, picture.triangles = mesh.cells;
   for (int i = 0; i < mesh.node_count(); ++i) picture.deflection.push_back(s.vertex_deflection(i));
   picture.deformation = options.deform.value_or(visible_deflection(s));
-  picture.force_unit = options.units.force;
+  picture.force_unit = options.units.force, picture.length_unit = options.units.length;
   picture.reaction_unit = options.units.force.empty() || options.units.length.empty() ? "" : options.units.force + "/" + options.units.length;
   add_boundary(picture, s);
   add_forces(picture, s);

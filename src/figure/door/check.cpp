@@ -228,7 +228,7 @@ void check_boundary(const PlateEdge& e) {
 
 void check(const PlatePicture& p) {
   check_sheet(p);
-  for (const std::string& unit : {p.field_unit, p.reaction_unit, p.force_unit}) check_text("'units'", unit);
+  for (const std::string& unit : {p.field_unit, p.reaction_unit, p.force_unit, p.length_unit}) check_text("'units'", unit);
   require(p.points.size() % 2 == 0, "points of a plate come two coordinates each");
   const std::size_t n = p.points.size() / 2;
   require(!p.triangles.empty(), "the picture " + p.file + " shows no triangle");

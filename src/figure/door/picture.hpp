@@ -109,6 +109,7 @@ struct ContactPicture {
   std::vector<int> facets;                  // positions in `nodes`, flat; may be empty: markers only
   int nodes_per_facet = 2;                  // 2 in the plane, 3 or 4 in space
   std::vector<double> values;               // space, n: a field on the surface, or empty: it shows the statuses
+  bool apart = false;                       // space: drawn off the other body, seen from outside of its own alone
 };
 
 enum class SupportKind { fix, slide, displace, spring };  // the first ones as scene::SupportKind has them
@@ -141,6 +142,7 @@ struct LoadArrow {
   Vec3 position = {0, 0, 0};
   Vec3 displacement = {0, 0, 0};
   Vec3 vector = {0, 0, 0};                  // force, or force per length or area
+  Vec3 normal = {0, 0, 0};                  // outward normal of the body there
 };
 
 enum class MeshEdges { automatic, on, off };           // automatic: while they can be told apart

@@ -129,7 +129,7 @@ ScenePicture scene_of(const Plate& plate) {
   ScenePicture scene;
   static_cast<Sheet&>(scene) = p;
   scene.caption = p.caption;
-  scene.field_label = p.field_label, scene.field_unit = p.field_unit, scene.field_range = p.field_range, scene.field_signed = p.field_signed;
+  scene.field_label = p.field_label, scene.field_unit = p.field_unit, scene.field_range = p.field_range, scene.field_signed = p.field_signed, scene.length_unit = p.length_unit;
   scene.edges = !space && p.edges == MeshEdges::automatic ? MeshEdges::off : p.edges;
   scene.bodies = {body_of(p, space)};
   if (!space) {

@@ -69,6 +69,7 @@ struct PlatePicture : Sheet {
   std::vector<double> bears;                // n, above 0.5 in the zone that does; empty: 1 at `bearing`, 0 elsewhere
   std::vector<int> mesh_edges;              // of the mesh that was solved on, two nodes each; empty: the edges of the triangles
   std::string reaction_unit, force_unit;    // of reactions per length, of concentrated ones; may be empty
+  std::string length_unit;                  // of the axes of a plan; may be empty
   std::optional<Vec3> view_from;            // surface: direction towards the eye
 };
 

@@ -122,7 +122,7 @@ void body_legend(const Stage& stage, std::vector<LegendEntry>& out) {
                      const std::array<double, 2> dash{0.35 * em, 0.22 * em};
                      c.polyline(b.midline(), std::max(1.0, em / 18), undeformed_colour, plane ? std::span<const double>(dash) : std::span<const double>());
                    }});
-  if (displaced(stage.picture) && stage.names_scale && (stage.picture.deformation != 1 || stage.deformation_shows)) out.push_back({scale_name(stage.picture), {}});
+  if (displaced(stage.picture) && stage.names_scale) out.push_back({scale_name(stage.picture), {}});
 }
 
 }  // namespace

@@ -104,12 +104,14 @@ void draw_line(Stage& stage, const ContactPicture& contact) {
   if (markers)
     for (const std::size_t i : stage.spaced(at, 0.95 * stage.em, 0.36 * stage.em)) marked.insert(i);
   for (const std::size_t i : marked) mark(stage, contact.nodes[i].status, at[i], marker_size);
-  // Each run of one status keeps a marker, which is as large as there is room for.
+  // Each run of one status keeps a marker, which is as large as there is room for, and no smaller than can be told apart, if it lies on no other of that size.
+  std::vector<Point> small;
   for (const Run& run : runs(contact, at)) {
     const std::size_t middle = run.nodes[run.nodes.size() / 2];
-    const double size = std::min(marker_size, run.length / stage.em);
-    if (size < least_marker || !stage.shows(at[middle], 0.36 * stage.em) || std::ranges::any_of(run.nodes, [&](int i) { return marked.contains(i); })) continue;
+    const double size = std::clamp(run.length / stage.em, least_marker, marker_size);
+    if ((!markers && run.length < least_marker * stage.em) || std::ranges::any_of(small, [&](Point p) { return length(p - at[middle]) < size * stage.em; }) || !stage.shows(at[middle], 0.36 * stage.em) || std::ranges::any_of(run.nodes, [&](int i) { return marked.contains(i); })) continue;
     mark(stage, contact.nodes[middle].status, at[middle], size);
+    small.push_back(at[middle]);
   }
 }
 

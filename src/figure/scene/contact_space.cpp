@@ -25,16 +25,21 @@ Plan plan_of(const ContactPicture& contact) {
   return axis == 1 ? Plan{0, 2} : Plan{1, 2};
 }
 
-// The rim of the contact part where it is open, up to the middles of the edges beside.
-void add_open_rim(const Stage& stage, const ContactPicture& contact, vtkRenderer* renderer) {
-  Shapes lines(stage, 2);
-  for (const auto& [a, b] : pairs(rim({contact.facets, contact.nodes_per_facet})))
-    for (const auto& [own, other] : {std::pair{a, b}, std::pair{b, a}}) {
-      if (contact.nodes[own].status != Status::open) continue;
-      const Vec3 p = stage.place(contact.nodes[own]);
-      for (const Vec3& q : {p, part_way(p, stage.place(contact.nodes[other]), 0.5)}) lines.add(q, 4);
-    }
-  lines.show(renderer, status_colour(Status::open), 0.16 * stage.em);
+// Before the surface of the body. One drawn apart is seen from outside of its body alone, so it may stand off that by more than the deformation, which
+// is drawn magnified, puts it below the edges of other cells.
+double lift(const Stage& stage, const ContactPicture& contact) { return contact.apart ? stage.em : 1.5; }
+
+// The facets that are to be seen.
+Facets seen_facets(const Stage& stage, const ContactPicture& contact) {
+  Facets all{contact.facets, contact.nodes_per_facet};
+  if (!contact.apart) return all;
+  Facets out{{}, all.each};
+  each_polygon(all, [&](std::span<const int> facet) {
+    Vec3 mean{0, 0, 0};
+    for (const int i : facet) mean = plus(mean, contact.nodes[i].normal);
+    if (dot(mean, stage.view.towards) > 0) out.nodes.insert(out.nodes.end(), facet.begin(), facet.end());
+  });
+  return out;
 }
 
 std::vector<Vec3> corners(const Stage& stage, const ContactPicture& contact, std::span<const int> facet) {
@@ -43,18 +48,30 @@ std::vector<Vec3> corners(const Stage& stage, const ContactPicture& contact, std
   return out;
 }
 
+// The rim of the contact part where it is open, up to the middles of the edges beside.
+void add_open_rim(const Stage& stage, const ContactPicture& contact, vtkRenderer* renderer) {
+  Shapes lines(stage, 2);
+  for (const auto& [a, b] : pairs(rim(seen_facets(stage, contact))))
+    for (const auto& [own, other] : {std::pair{a, b}, std::pair{b, a}}) {
+      if (contact.nodes[own].status != Status::open) continue;
+      const Vec3 p = stage.place(contact.nodes[own]);
+      for (const Vec3& q : {p, part_way(p, stage.place(contact.nodes[other]), 0.5)}) lines.add(q, lift(stage, contact) + 2.5);
+    }
+  lines.show(renderer, status_colour(Status::open), 0.16 * stage.em);
+}
+
 // Each facet, quartered to its nodes, in their colours.
 void add_statuses(const Stage& stage, const ContactPicture& contact, vtkRenderer* renderer) {
   for (const Status status : {Status::closed, Status::stick, Status::slip}) {  // open leaves the field to be seen
     Shapes quads(stage, 4), hatching(stage, 2);
-    each_polygon({contact.facets, contact.nodes_per_facet}, [&](std::span<const int> facet) {
+    each_polygon(seen_facets(stage, contact), [&](std::span<const int> facet) {
       const auto parts = quarters(corners(stage, contact, facet));
       for (std::size_t k = 0; k < parts.size(); ++k) {
         if (contact.nodes[facet[k]].status != status) continue;
         std::vector<Vec3> quad;
-        for (const Vec3& p : parts[k]) quads.add(p, 1.5), quad.push_back(stage.view.pixel(p));
+        for (const Vec3& p : parts[k]) quads.add(p, lift(stage, contact)), quad.push_back(stage.view.pixel(p));
         if (status != Status::slip) continue;
-        for (const auto& [p, q] : hatched(std::span<const Vec3>(quad), slip_spacing * stage.em)) hatching.add_pixel(p, 2.5), hatching.add_pixel(q, 2.5);
+        for (const auto& [p, q] : hatched(std::span<const Vec3>(quad), slip_spacing * stage.em)) hatching.add_pixel(p, lift(stage, contact) + 1), hatching.add_pixel(q, lift(stage, contact) + 1);
       }
     });
     quads.show(renderer, status_colour(status));
@@ -66,14 +83,14 @@ void add_statuses(const Stage& stage, const ContactPicture& contact, vtkRenderer
 // A field on the surface; lines between nodes of different statuses.
 void add_field(const Stage& stage, const ContactPicture& contact, vtkRenderer* renderer) {
   std::vector<Vec3> at;
-  for (const ContactNode& node : contact.nodes) at.push_back(stage.rendered(stage.view.pixel(stage.place(node)), 1.5));
-  const Facets facets{contact.facets, contact.nodes_per_facet};
+  for (const ContactNode& node : contact.nodes) at.push_back(stage.rendered(stage.view.pixel(stage.place(node)), lift(stage, contact)));
+  const Facets facets = seen_facets(stage, contact);
   add_coloured(stage, renderer, poly_data(at, facets), contact.values);
   Shapes borders(stage, 2);
   each_polygon(facets, [&](std::span<const int> facet) {
     const auto parts = quarters(corners(stage, contact, facet));
     for (std::size_t k = 0; k < parts.size(); ++k)
-      if (contact.nodes[facet[k]].status != contact.nodes[facet[(k + 1) % parts.size()]].status) borders.add(parts[k][1], 3), borders.add(parts[k][2], 3);
+      if (contact.nodes[facet[k]].status != contact.nodes[facet[(k + 1) % parts.size()]].status) borders.add(parts[k][1], lift(stage, contact) + 1.5), borders.add(parts[k][2], lift(stage, contact) + 1.5);
   });
   borders.show(renderer, {255, 255, 255}, 0.16 * stage.em);
 }

@@ -39,7 +39,8 @@ void draw_note(Stage& stage, const Note& note, std::vector<Box>& taken) {
 void draw_notes(Stage& stage, vtkRenderer*) {
   for (const auto& [x0, y0, x1, y1] : stage.picture.marked) {
     const Point a = stage.view.flat({x0, y0, 0}), b = stage.view.flat({x1, y1, 0});
-    stage.over.outline({a.x, a.y, b.x, b.y}, std::max(1.5, stage.em / 12), axes_ink);
+    const Box rim = stage.frame.grown(0.2 * stage.em);
+    stage.over.outline({std::max(a.x, rim.left), std::max(a.y, rim.bottom), std::min(b.x, rim.right), std::min(b.y, rim.top)}, std::max(1.5, stage.em / 12), axes_ink);
   }
   std::vector<Box> taken;
   for (const Note& note : stage.picture.notes)

@@ -130,6 +130,17 @@ std::vector<Painted> painted(Stage& stage) {
   return parts;
 }
 
+namespace {
+
+// A sheet without a given width becomes one of two columns where one will not do.
+bool widened(Sheet& sheet) {
+  const double before = printed_width(sheet);
+  if (!sheet.printed) sheet.printed = two_columns;
+  return printed_width(sheet) > before;
+}
+
+}  // namespace
+
 void draw_scene(const ScenePicture& picture, const std::function<void(Stage&)>& prepare) {
   ScenePicture grown = picture;
   constexpr int kRounds = 4;  // the column beside the scene depends on the height
@@ -137,7 +148,10 @@ void draw_scene(const ScenePicture& picture, const std::function<void(Stage&)>& 
     Stage stage(grown);
     if (prepare) prepare(stage);
     const double missing = lay_out(stage);
-    refuse_narrow(stage);
+    if (const double lacks = lacking_width(stage); lacks > 0) {
+      if (widened(grown)) continue;
+      refuse_narrow(picture, lacks);
+    }
     if (round == kRounds || !(missing > 1)) return write_picture(grown, painted(stage));
     grown.height = std::min(std::max(grown.height, greatest_side), grown.height + static_cast<int>(std::ceil(missing)));
   }

@@ -17,16 +17,15 @@ namespace {
 
 constexpr double gap = 0.8;  // between panels, em
 
-// The scale of the panels whose field has colours, if there are several and all show the same one.
-std::optional<ColourScale> common_scale(const std::vector<ScenePicture>& panels) {
+// The scale of panels that show one field, if there are several and no range is given to some alone.
+std::optional<ColourScale> common_scale(const std::vector<ScenePicture*>& panels) {
   std::optional<ColourScale> common;
-  const ScenePicture* first = nullptr;
   int several = 0;
-  for (const ScenePicture& p : panels) {
-    const ColourScale own = colour_scale(p, p.window ? std::optional(box_of(*p.window)) : std::nullopt);
-    if (!own.shown || p.field_label.empty()) continue;
-    if (first && (p.field_label != first->field_label || p.field_unit != first->field_unit || p.field_signed != first->field_signed || p.field_range != first->field_range)) return std::nullopt;
-    if (!first) first = &p, common = own;
+  for (const ScenePicture* p : panels) {
+    const ColourScale own = colour_scale(*p, p->window ? std::optional(box_of(*p->window)) : std::nullopt);
+    if (p->field_range != panels.front()->field_range) return std::nullopt;
+    if (!own.shown) continue;
+    if (!common) common = own;
     common->low = std::min(common->low, own.low), common->high = std::max(common->high, own.high);
     common->least = std::min(common->least, own.least), common->greatest = std::max(common->greatest, own.greatest);
     common->diverging = common->diverging || own.diverging;
@@ -47,10 +46,8 @@ void share_lengths(std::vector<ScenePicture>& panels) {
 
 class Rows {
 public:
-  explicit Rows(const SceneGrid& given) : sheet_(given), columns_(static_cast<std::size_t>(given.columns)), em_(letters(given)), panels_(given.panels), scale_(common_scale(panels_)) {
-    if (scale_)
-      for (ScenePicture& p : panels_)
-        if (!p.field_label.empty()) p.field_range = {scale_->low, scale_->high}, p.field_signed = scale_->diverging;
+  explicit Rows(const SceneGrid& given) : sheet_(given), columns_(static_cast<std::size_t>(given.columns)), em_(letters(given)), panels_(given.panels) {
+    share_ranges();
     share_lengths(panels_);
     name_scales();
     title_ = fitted(sheet_.title, 1.15 * em_, sheet_.width - em_, true);
@@ -65,7 +62,9 @@ public:
     if (sheet_.height > greatest_side)
       throw InputError(text("the pictures of ", sheet_.file, " need ", sheet_.height, " pixels of height in ", rows(), " rows, at most ", greatest_side, " are possible; give more 'columns'"));
     lay_out_panels();
-    for (const Stage& stage : stages_) refuse_narrow(stage);
+    double lacks = 0;
+    for (const Stage& stage : stages_) lacks = std::max(lacks, static_cast<double>(columns_) * lacking_width(stage));
+    refuse_narrow(sheet_, lacks, columns_ > 1 ? ", or give fewer 'columns'" : "");
   }
 
   void write() {
@@ -89,6 +88,18 @@ private:
     return *std::ranges::find_if(panels_, [](const ScenePicture& p) { return !p.field_label.empty(); });
   }
   double bar_width() const { return scale_ ? colour_bar_width(*scale_, field_of(shown()), em_) : 0; }
+
+  // Panels of one field have one range of colours, and one bar if no others are there.
+  void share_ranges() {
+    std::map<std::pair<std::string, std::string>, std::vector<ScenePicture*>> fields;
+    for (ScenePicture& p : panels_)
+      if (!p.field_label.empty()) fields[{p.field_label, p.field_unit}].push_back(&p);
+    for (const auto& [field, panels] : fields)
+      if (const std::optional<ColourScale> common = common_scale(panels)) {
+        for (ScenePicture* p : panels) p->field_range = {common->low, common->high}, p->field_signed = common->diverging;
+        if (fields.size() == 1) scale_ = common;
+      }
+  }
 
   // Where the panels' deformation factors differ, each says its own below.
   void name_scales() {
@@ -139,10 +150,11 @@ private:
     else same->samples.emplace(kind, entry.sample);
   }
 
-  // A status is drawn differently in space, in the plane and on maps: shows all its samples side by side.
+  // A status, and the pressure, are drawn differently in space, in the plane and on maps: shows all its samples side by side.
   static LegendEntry joined(Named named) {
     const auto is_status = [&](Status s) { return named.entry.name == status_name(s); };
-    if (named.samples.size() < 2 || std::ranges::none_of(std::array{Status::open, Status::closed, Status::stick, Status::slip}, is_status)) return named.entry;
+    const bool differs = std::ranges::any_of(std::array{Status::open, Status::closed, Status::stick, Status::slip}, is_status) || named.entry.name.starts_with("contact pressure");
+    if (named.samples.size() < 2 || !differs) return named.entry;
     return {named.entry.name, [samples = named.samples](Canvas& c, const Box& b) {
               const double each = b.width() / static_cast<double>(samples.size());
               double left = b.left;

@@ -1,5 +1,7 @@
 // Where everything of a scene figure goes: the scene is fitted, with equal
 // axes, into what title, legend, axes and colour bar leave.
+#include <limits>
+
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "figure/canvas/axes.hpp"
@@ -48,6 +50,7 @@ void aim(Stage& stage) {
   const Vec3 vertical = std::abs(view.towards[2]) > 0.999 ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
   view.right = unit(cross(vertical, view.towards));
   view.up = cross(view.towards, view.right);
+  if (!stage.body_boxes.empty()) view.depth = dot(part_way(stage.body_boxes[0][0], stage.body_boxes[0][1], 0.5), view.towards);  // numbers for VTK are short
   if (!stage.picture.region) return;
   const auto& r = *stage.picture.region;
   Bounds seen;
@@ -105,6 +108,7 @@ void fit(Stage& stage, const Bounds& scaled, const Box& room) {
   const Bounds now = pixel_bounds(stage, scaled);
   stage.view.origin = room.centre() - now.centre();
   stage.frame = now.moved(stage.view.origin);
+  stage.drawn = {0, 0, stage.view.scale * width, stage.view.scale * height};
 }
 
 // The axes stand off the scene, but bound a window.
@@ -124,7 +128,7 @@ std::array<Ticks, 2> frame_ticks(const Stage& stage) {
   const double s = stage.view.scale, em = stage.em;
   const Point o = stage.view.origin;
   const Box w = stage.window.value_or(Box{(f.left - o.x) / s, (f.bottom - o.y) / s, (f.right - o.x) / s, (f.top - o.y) / s});
-  return {spaced_ticks({false, w.left, w.right, f.left, f.right}, em), few_ticks(w.bottom, w.top, f.height() / (2.6 * em))};
+  return {spaced_ticks({false, w.left, w.right, f.left, f.right}, em), few_ticks(w.bottom, w.top, std::clamp(4.0, f.height() / (2.6 * em), f.height() / (2 * em)))};
 }
 
 // "x", "arc [mm]", "y [10⁻³ m]".
@@ -166,8 +170,10 @@ void draw_axes(Stage& stage) {
   c.text({f.left - (is_long(y_name, em) ? 1.5 * em : 0), along.top + above}, y_name, {.size = size, .across = is_long(y_name, em) ? Align::low : Align::middle, .colour = axis_ink});
 }
 
+constexpr double triad_reach = 2;  // em
+
 void draw_triad(Stage& stage, Point at) {
-  const double em = stage.em, reach = 2 * em;
+  const double em = stage.em, reach = triad_reach * em;
   // Farthest from the eye first.
   std::array<int, 3> order{0, 1, 2};
   std::sort(order.begin(), order.end(), [&](int a, int b) { return stage.view.towards[a] < stage.view.towards[b]; });
@@ -181,26 +187,35 @@ void draw_triad(Stage& stage, Point at) {
   }
 }
 
-// In a corner that the scene leaves free, else below on the left.
+// How many facets of the scene come near a box.
+int facets_near(const Stage& stage, const Box& box) {
+  int count = 0;
+  const auto look = [&](const Facets& facets, const auto& place) {
+    each_polygon(facets, [&](std::span<const int> nodes) {
+      Bounds bounds;
+      for (const int i : nodes) bounds.add(stage.view.flat(place(i)));
+      count += bounds.overlaps(box);
+    });
+  };
+  for (const BodyPicture& body : stage.picture.bodies)
+    for (const double factor : {stage.picture.deformation, 0.0}) look({body.facets, body.nodes_per_facet}, [&](int i) { return body.node(i, factor); });
+  for (const RigidPicture& o : stage.picture.obstacles) look({o.triangles, 3}, [&](int i) { return Vec3{o.points[3 * i], o.points[3 * i + 1], o.points[3 * i + 2]}; });
+  return count;
+}
+
+// In the corner of the room that the scene leaves freest.
 Point triad_place(const Stage& stage, const Box& room) {
   const double em = stage.em;
-  const Box corners{room.left + 2.2 * em, room.bottom + 1.6 * em, room.right - 2.6 * em, room.top - 2.6 * em};
-  for (const Point at : {Point{corners.left, corners.bottom}, {corners.right, corners.bottom}, {corners.left, corners.top}, {corners.right, corners.top}}) {
-    const Box box{at.x - 2.6 * em, at.y - 1.6 * em, at.x + 2.6 * em, at.y + 2.6 * em};
-    bool free = true;
-    const auto spare = [&](const Facets& facets, const auto& place) {
-      each_polygon(facets, [&](std::span<const int> nodes) {
-        Bounds bounds;
-        for (const int i : nodes) bounds.add(stage.view.flat(place(i)));
-        free = free && !bounds.overlaps(box);
-      });
-    };
-    for (const BodyPicture& body : stage.picture.bodies)
-      for (const double factor : {stage.picture.deformation, 0.0}) spare({body.facets, body.nodes_per_facet}, [&](int i) { return body.node(i, factor); });
-    for (const RigidPicture& o : stage.picture.obstacles) spare({o.triangles, 3}, [&](int i) { return Vec3{o.points[3 * i], o.points[3 * i + 1], o.points[3 * i + 2]}; });
-    if (free) return at;
-  }
-  return {corners.left, corners.bottom};
+  Bounds triad;
+  triad.add(Point{0, 0});
+  for (std::size_t i = 0; i < 3; ++i) triad.add(triad_reach * em * Point{stage.view.right[i], stage.view.up[i]});
+  const Box own = triad.grown(1.1 * em);  // its letters
+  const Box corners{room.left - own.left, room.bottom - own.bottom, room.right - own.right, room.top - own.top};
+  Point best;
+  int least = std::numeric_limits<int>::max();
+  for (const Point at : {Point{corners.left, corners.bottom}, {corners.right, corners.bottom}, {corners.left, corners.top}, {corners.right, corners.top}})
+    if (const int near = facets_near(stage, own.moved(at)); near < least) least = near, best = at;
+  return best;
 }
 
 // Whether the undeformed outline is seen beside the deformed one; in a window
@@ -222,6 +237,7 @@ bool displacement_shows(const Stage& stage) {
 struct Surroundings {
   double bar = 0, column = 0;  // widths of the colour bar, and of the widest of what stands in its column
   double caption = 0;          // height
+  double labels = 0;           // width of the numbers up the axis, the widest so far
   Legend legend;
   bool beside = false;         // the legend stands in that column, not below
   Box room;                    // for the scene
@@ -231,7 +247,7 @@ FittedText title_of(const ScenePicture& p, double em) { return fitted(p.title, 1
 FittedText caption_of(const ScenePicture& p, double em) { return fitted(p.caption, em, p.width - em); }
 
 // The room that all else leaves, with the widths of labels as the scene stands now.
-Box room_left(const Stage& stage, const Surroundings& around, bool placed) {
+Box room_left(const Stage& stage, Surroundings& around, bool placed) {
   const ScenePicture& p = stage.picture;
   const double em = stage.em;
   Box room;
@@ -240,8 +256,8 @@ Box room_left(const Stage& stage, const Surroundings& around, bool placed) {
   room.left = 0.8 * em;
   room.right = p.width - 0.8 * em - (around.column > 0 ? around.column + 1.0 * em : 0);
   if (!p.axes || !stage.plane) return room;
-  const double widest = placed ? std::max(em, widest_label(frame_ticks(stage)[1], legend_size * em)) : em;
-  room.left += widest + 0.5 * em + axis_gap(stage);
+  around.labels = std::max({around.labels, em, placed ? widest_label(frame_ticks(stage)[1], legend_size * em) : 0});
+  room.left += around.labels + 0.5 * em + axis_gap(stage);
   const bool below = placed && is_long(axis_text(stage, 0, frame_ticks(stage)[0].exponent), em);
   room.bottom += (below ? 2.6 : 1.5) * em + axis_gap(stage);
   room.top -= (stage.window || is_long(axis_text(stage, 1, 0), em) ? 1.5 : 1.1) * em;
@@ -253,7 +269,7 @@ Box room_left(const Stage& stage, const Surroundings& around, bool placed) {
 Surroundings place_scene(Stage& stage, const Bounds& scaled, bool beside) {
   const ScenePicture& p = stage.picture;
   const double em = stage.em;
-  Surroundings around{0, 0, p.caption.empty() ? 0 : 1.5 * em + caption_of(p, em).depth(), Legend({}, em), beside, {}};
+  Surroundings around{0, 0, p.caption.empty() ? 0 : 1.5 * em + caption_of(p, em).depth(), 0, Legend({}, em), beside, {}};
   stage.frame = {0, 0, 1.0 * p.width, 1.0 * p.height};
   stage.crowded = false;
   for (int round = 0; round < 3; ++round) {
@@ -332,21 +348,32 @@ double lay_out(Stage& stage) {
   draw_column(stage, around);
   if (p.axes && stage.plane) draw_axes(stage);
   if (p.axes && !stage.plane) draw_triad(stage, triad_place(stage, around.room));
-  const double missing = std::max({column_height(stage, around) - room_of_column(stage, around), least_plot(p) - around.room.height(), stage.frame.height() - around.room.height()});
+  double missing = std::max({column_height(stage, around) - room_of_column(stage, around), least_plot(p) - around.room.height(), stage.frame.height() - around.room.height()});
   if (!stage.plane && !stage.window) stage.frame = around.room;
+  constexpr double kShare = 0.3;  // of the height is the scene's, the rest that of symbols and labels
+  const double symbols = stage.frame.height() - stage.drawn.height();
+  if (stage.plane && !stage.window && stage.drawn.height() < kShare * around.room.height() && symbols > (1 - kShare) * around.room.height())
+    missing = std::max(missing, symbols / (1 - kShare) - around.room.height());
   return missing;
 }
 
-void refuse_narrow(const Stage& stage) {
-  constexpr double kLeast = 15;  // mm
+double lacking_width(const Stage& stage) {
+  constexpr double kLeast = 15, kShare = 0.3;  // mm; of the room's width
   const ScenePicture& p = stage.picture;
-  const double mm = printed_width(p) / p.width;
-  double lacks = std::max(kLeast / mm - stage.room.width(), stage.frame.width() - stage.room.width() - 1);
+  const double symbols = stage.frame.width() - stage.drawn.width();
+  double lacks = std::max(kLeast / printed_width(p) * p.width - stage.room.width(), stage.frame.width() - stage.room.width() - 1);
+  if (stage.plane && !stage.window && stage.drawn.width() > 0 && stage.drawn.width() < kShare * stage.room.width() && symbols > (1 - kShare) * stage.room.width())
+    lacks = std::max(lacks, symbols / (1 - kShare) - stage.room.width() + 1);
   for (const LegendEntry& entry : stage.entries)
     if (stage.own_legend) lacks = std::max(lacks, Legend({entry}, legend_size * stage.em).width() + 2 * stage.em - p.width);
-  if (lacks > 0)
-    throw InputError(text("a picture in ", p.file, " is ", std::round(p.width * mm), " mm wide, of which letters and legend leave ", std::max(0.0, std::round(stage.room.width() * mm)),
-                          " mm to the scene; make it ", std::ceil((p.width + lacks) * mm), " mm wide at least"));
+  return lacks;
+}
+
+void refuse_narrow(const Sheet& sheet, double lacks, const std::string& remedy) {
+  if (lacks <= 0) return;
+  const double mm = printed_width(sheet) / sheet.width;
+  throw InputError(text("a scene in ", sheet.file, " has no room beside its letters and symbols where that is ", std::floor(sheet.width * mm), " mm wide; make it ",
+                        std::ceil((sheet.width + lacks) * mm + 0.5), " mm wide at least", remedy));
 }
 
 }  // namespace dotyk::figure

@@ -41,6 +41,7 @@ struct Stage {
   ColourScale scale;
   View view;
   Box frame;                  // pixels within which the scene is drawn
+  Box drawn;                  // size of what grows with the scale: without symbols and labels
   Box room;                   // what title, legend, bar and the numbers of axes leave
   std::vector<std::array<Vec3, 2>> body_boxes;  // least and greatest reference corner of each body
   std::optional<Box> asked, window;  // what the figure shows, across and up, where that is not all: as the picture says; and drawn, which is at least that
@@ -110,8 +111,10 @@ std::vector<Painted> painted(Stage& stage);
 // and colour bar; draws these. Returns how many pixels the picture's height lacks for a scene and a colour bar that are legible;
 // less than 0: so many it does not need.
 double lay_out(Stage& stage);
-// Of a stage that is laid out: throws InputError, which names the width needed, where what stands beside the scene leaves it too little of the sheet.
-void refuse_narrow(const Stage& stage);
+// Of a stage that is laid out: how many pixels its picture is too narrow, as what stands beside the scene leaves too little to that; at most 0: none.
+double lacking_width(const Stage& stage);
+// Throws InputError, which names the width needed, where that is above 0. `remedy`: what else would help.
+void refuse_narrow(const Sheet& sheet, double lacking, const std::string& remedy = "");
 
 // Fits the picture's window into the room. The greatest pressure comes to a fifth of its height, less where it would not fit; from
 // three quarters of that on the window grows. Sets stage.view, frame, window, and what depends on what is seen: greatest pressure,

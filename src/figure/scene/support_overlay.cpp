@@ -124,16 +124,7 @@ std::array<Vec3, 2> load_arrow_in_space(const Stage& stage, const LoadArrow& loa
   const double longest = load_length * stage.em / stage.greatest_load;
   const Vec3 along{longest * dot(load.vector, stage.view.right), longest * dot(load.vector, stage.view.up), longest * dot(load.vector, stage.view.towards)};
   // A load that pushes ends at the boundary, one that pulls begins there.
-  bool pushes = true;
-  for (const auto& [least, most] : stage.body_boxes) {
-    const double slack = 1e-6 * std::sqrt(dot(plus(most, least, -1), plus(most, least, -1)));
-    bool inside = true;
-    for (std::size_t c = 0; c < 3; ++c) inside = inside && load.position[c] >= least[c] - slack && load.position[c] <= most[c] + slack;
-    if (!inside) continue;
-    const Vec3 centre = plus(plus(least, most), plus(least, most), -0.5);
-    pushes = dot(plus(centre, load.position, -1), load.vector) >= 0;
-    break;
-  }
+  const bool pushes = dot(load.normal, load.vector) <= 1e-9 * length(load.vector);
   return pushes ? std::array{plus(at, along, -1), at} : std::array{at, plus(at, along)};
 }
 

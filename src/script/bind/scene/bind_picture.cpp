@@ -6,7 +6,17 @@
 
 namespace dotyk::script {
 
-template <> struct Wrapped<figure::ScenePicture> : Called<"picture"> {};
+namespace {
+
+// Of solution:picture. `magnify` draws it with another factor on the displacement; none: that was given.
+struct Panel {
+  figure::ScenePicture picture;
+  std::function<void(figure::ScenePicture&, double)> magnify;
+};
+
+}  // namespace
+
+template <> struct Wrapped<Panel> : Called<"picture"> {};
 
 namespace {
 
@@ -119,15 +129,41 @@ std::string render_scene(Call& call) {
   return call.has("zoom") ? draw_zoomed(call, std::move(picture)) : draw(call, std::move(picture));
 }
 
-std::shared_ptr<ScenePicture> make_picture(Call& call) {
-  ScenePicture picture = picture_of(call, false);
-  call.read("title", picture.title);
-  return std::make_shared<ScenePicture>(std::move(picture));
+std::shared_ptr<Panel> make_picture(Call& call) {
+  auto panel = std::make_shared<Panel>(Panel{picture_of(call, false), {}});
+  call.read("title", panel->picture.title);
+  const auto s = call.self<Solution>();
+  SceneOptions options = scene_options(call, s->scene().dimension());
+  if (!call.has("map") && !options.deform)
+    panel->magnify = [s, options](ScenePicture& p, double factor) mutable {
+      options.deform = p.deformation = factor;
+      p.obstacles = figure::compose(*s, options).obstacles;  // which are magnified as they are composed
+    };
+  return panel;
+}
+
+// Pictures of the same bodies whose factors are automatic get the least of these: frames of a history can be compared.
+void share_factors(const std::vector<std::shared_ptr<Panel>>& panels, std::vector<ScenePicture>& pictures) {
+  const auto bodies = [](const ScenePicture& p) {
+    std::string names;
+    for (const figure::BodyPicture& body : p.bodies) names += body.name + '\n';
+    return names;
+  };
+  std::map<std::string, double> least;
+  for (const auto& panel : panels)
+    if (panel->magnify) {
+      double& factor = least.try_emplace(bodies(panel->picture), panel->picture.deformation).first->second;
+      factor = std::min(factor, panel->picture.deformation);
+    }
+  for (std::size_t i = 0; i < panels.size(); ++i)
+    if (panels[i]->magnify && least[bodies(pictures[i])] < pictures[i].deformation) panels[i]->magnify(pictures[i], least[bodies(pictures[i])]);
 }
 
 std::string draw_pictures(Call& call) {
   figure::SceneGrid grid;
-  for (const auto& picture : call.items<ScenePicture>()) grid.panels.push_back(*picture);
+  const auto panels = call.items<Panel>();
+  for (const auto& panel : panels) grid.panels.push_back(panel->picture);
+  share_factors(panels, grid.panels);
   const int count = static_cast<int>(grid.panels.size());
   grid.columns = call.has("columns") ? static_cast<int>(std::min<long long>(call.integer("columns"), count)) : std::min(count, 3);
   const int rows = (count + grid.columns - 1) / grid.columns;
@@ -178,18 +214,19 @@ std::vector<Key> picture_keys() {
 }  // namespace
 
 void bind_picture(Library& library) {
-  library.type<ScenePicture>("What solution:picture makes: to be drawn beside others by dotyk.pictures.").text([](const ScenePicture& p) {
+  library.type<Panel>("What solution:picture makes: to be drawn beside others by dotyk.pictures.").text([](const Panel& panel) {
+    const ScenePicture& p = panel.picture;
     return text("picture of ", p.bodies.size(), p.bodies.size() == 1 ? " body" : " bodies", p.field_label.empty() ? "" : ", " + p.field_label);
   });
   library.function({.name = "dotyk.pictures",
                     .help = "Draws pictures made by solution:picture side by side into a file and returns its name: frames of a history, a scene and the maps of its "
-                            "contacts. There is one legend, and one colour bar where all show the same field.",
+                            "contacts. There is one legend; pictures of one field share the range of its colours, and one bar where all show it; frames of the same bodies share their automatic factor.",
                     .setup = setup::solved_block(),
                     .example = "dotyk.pictures{ file = \"a.png\", columns = 2, s:picture{ title = \"stress\" }, s:picture{ title = \"displacement\", field = \"uy\" } }",
                     .arguments = {key::table(joined(
                         {picture_key(), title_key(), key::integer("columns", "of the pictures, which follow row by row").at_least(1).otherwise("up to 3")},
                         size_keys("{2100, 60 and four fifths of the width of a picture for each row}, one column {1200, …}")))
-                                      .with(key::object<ScenePicture>("pictures", "the pictures").count(1, 24))},
+                                      .with(key::object<Panel>("pictures", "the pictures").count(1, 24))},
                     .run = draw_pictures});
   library.extend<Solution>().method(
       {.name = "solution:render",
