@@ -65,6 +65,7 @@ check.equal(numbers(svg, 0.85), "1 2 3 4")
 for _, zero in ipairs{ "uy", "yy", "xy" } do
   local text <const> = drawn(pulled(5), { field = zero }).text
   check.that(text:find("|max 0|", 1, true) and text:find("|min 0|", 1, true), zero .. " is not zero")
+  check.that(text:find("|−1", 1, true), "one with a sign has no colours below zero")
 end
 -- 2. Trajectories of uniaxial tension: full along x, dashed along y, from end to end, apart.
 local traced <const>, widest = drawn(six, { field = "none", trajectories = true, deform = 0 }), 0
@@ -164,6 +165,31 @@ dotyk.pictures{ file = "kinds.svg", width = 178, light:picture{ deform = 1 }, li
 local scales <const> = {}
 for _, t in ipairs(svgs.read("kinds.svg").texts) do if t.text:find "scale" or t.text:find "deformation" then scales[t.text] = (svgs.box(t)[1] + svgs.box(t)[3]) / 2 < svgs.read("kinds.svg").width / 2 and "left" or "right" end end
 check.equal(scales, { ["true scale"] = "left", ["deformation × 2"] = "right" })
+-- Frames of the same bodies share the automatic factor, and pictures of one field its range, though another field is there.
+dotyk.pictures{ file = "kinds.svg", width = 178, light:picture{ field = "yy" }, heavy:picture{ field = "yy" }, heavy:picture{ field = "xx" } }
+local shared <const>, ranges = svgs.read "kinds.svg", {}
+check.that(select(2, shared.text:gsub("deformation × ", "")) == 1, "several factors: " .. shared.text)
+for _, t in ipairs(shared.texts) do if near(t.size, shared.em, 0.01) and svgs.number(t.text) and t.x < 2 * shared.width / 3 then ranges[t.text] = (ranges[t.text] or 0) + 1 end end
+for number, times in pairs(ranges) do check.equal(times, 2, "on one bar alone: " .. number) end
+check.that(next(ranges), "no numbers")
+-- A load that pushes ends at the surface, wherever that is; one that pulls begins there.
+local slab <const> = rectangle(6, 0.4, { 30, 2 }, 100, 0.3)
+slab:part "bottom":fix()
+slab:part "top":load(function(x) return 1, x < 3 and -1 or 1 end)
+local sides <const> = { 0, 0 }
+local loaded <const> = drawn(dotyk.solve(dotyk.scene{ slab }), { field = "none", loads = true, deform = 0 })
+local y <const>, x <const> = svgs.axis(loaded, 2), svgs.axis(loaded, 1)
+for _, m in ipairs(loaded.marks) do
+  if m.kind == "polygon" and #m == 3 and m.fill == "#00466e" and y(m[1][2]) > 0.3 then
+    local tip, foot = m[1], { (m[2][1] + m[3][1]) / 2, (m[2][2] + m[3][2]) / 2 }
+    for k = 1, 3 do local a <const>, b <const>, c <const> = m[k], m[k % 3 + 1], m[(k + 1) % 3 + 1] if (a[1] - b[1])^2 + (a[2] - b[2])^2 > (b[1] - c[1])^2 + (b[2] - c[2])^2 and (a[1] - c[1])^2 + (a[2] - c[2])^2 > (b[1] - c[1])^2 + (b[2] - c[2])^2 then tip, foot = a, { (b[1] + c[1]) / 2, (b[2] + c[2]) / 2 } end end
+    local pushes <const> = y(tip[2]) < y(foot[2])
+    check.equal(pushes, x(tip[1]) < 3.2, "direction at " .. x(tip[1]))
+    check.equal(near(y(tip[2]), 0.4, 0.02), pushes, "the tip at " .. x(tip[1]))
+    sides[pushes and 1 or 2] = sides[pushes and 1 or 2] + 1
+  end
+end
+check.that(sides[1] > 2 and sides[2] > 2, table.concat(sides, " ") .. " arrows")
 local lines <const>, column <const> = {}, sheet(light, block(1, 3, -1), { "yy", "yy" }, { columns = 1, size = { 700, 900 } })
 for _, t in ipairs(column.texts) do lines[t.text] = t.y end
 check.that(lines.Other - lines.One < lines.stick - lines.Other - 4 * column.em, "the row of a flat body is as high as that of a tall one")
@@ -206,6 +232,11 @@ end
 check.equal({ beside "von_mises", beside "pressure" }, { 1, 2 }, "images: of the scene; of the map where it has colours")
 local whole <const>, apart <const> = from_front{ field = "none" }, from_front{ field = "none", explode = 0.5 }
 check.near(apart.unit / whole.unit, 2 / 2.5, 0.005, "the height of bodies drawn apart fills the picture")
+for _, from in ipairs{ { 0.5, -1, 1 }, { 0.5, -1, -1 } } do -- drawn apart, both bodies show the contact
+  local images <const> = {}
+  for k, most in ipairs{ 1e-3, 1e3 } do images[k] = drawn(both, { field = "pressure", explode = 2, view = from, range = { 0, most } }).images[1] end
+  check.that(images[1] ~= images[2], "no contact is seen")
+end
 local part <const> = from_front{ field = "none", window = { 0, 0, 0, 1, 1, 1.5 } }
 check.equal({ whole.notes, part.notes, whole.frame }, { 3, 2 }, "notes in the window")
 check.near({ (part.frame[2][1] - part.frame[1][1]) / part.unit, (part.frame[1][2] - part.frame[3][2]) / part.unit }, { 1, 1.5 }, 0.01, "window") -- it has whole pixels
