@@ -44,6 +44,7 @@ struct FittedText {
   std::vector<std::string> lines;
   double depth() const;  // from the first line to the last
 };
+Point extent_of(const FittedText& text);
 
 // Breaks a text between words so that no line is wider than `pixels`. It stays in one line if letters of least_letters × `size` make it
 // fit; else it has two lines of about the same width, or three. If three do not suffice, the last is shortened, but keeps `end`. Bold

@@ -164,4 +164,10 @@ void Canvas::text(Point first, const FittedText& lines, TextStyle style) {
   }
 }
 
+Point extent_of(const FittedText& text) {
+  Point out{0, text_extent(text.lines[0], text.size).y + text.depth()};
+  for (const std::string& line : text.lines) out.x = std::max(out.x, text_extent(line, text.size).x);
+  return out;
+}
+
 }  // namespace dotyk::figure

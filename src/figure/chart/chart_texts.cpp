@@ -88,12 +88,6 @@ std::vector<FittedText> ways_to_write(const std::string& text, double size) {
   return out;
 }
 
-Point extent_of(const FittedText& text) {
-  Point out{0, text_extent(text.lines[0], text.size).y + text.depth()};
-  for (const std::string& line : text.lines) out.x = std::max(out.x, text_extent(line, text.size).x);
-  return out;
-}
-
 // As near to its point as can be, but not upon a marker there; none where there is no free place.
 std::optional<PlotText> note_near(const ChartNote& note, const ChartAxes& axes, const Occupied& occupied) {
   constexpr double kNearest = 0.7, kFarthest = 10, kMargin = 0.25;  // em

@@ -54,15 +54,6 @@ std::vector<double> error_indicators(const Solution& s, int index, int cells) {
   return out;
 }
 
-/// At each node; of open nodes the slip is NaN, which is drawn grey. Of `status` none.
-std::vector<double> contact_values(const ContactPicture& contact, FieldChoice field) {
-  std::vector<double> out;
-  if (field == FieldChoice::status) return out;
-  for (const ContactNode& node : contact.nodes)
-    out.push_back(field == FieldChoice::pressure ? node.pressure : field == FieldChoice::gap ? node.gap : node.status == Status::open ? NAN : node.slip);
-  return out;
-}
-
 /// The edges of cells of order 2 (in space of the facets drawn, as others are behind), cut in two at their nodes.
 std::vector<int> second_order_edges(const mesh::Mesh& mesh) {
   const mesh::ElementTopology& t = mesh.topology();
@@ -251,39 +242,6 @@ void move(std::vector<double>& points, const Vec3& by) {
   for (std::size_t i = 0; i < points.size(); ++i) points[i] += by[i % 3];
 }
 
-/// The contact as the second body has it: across the gap, seen from the other side.
-ContactPicture other_side(ContactPicture contact) {
-  for (ContactNode& node : contact.nodes) {
-    node.position = plus(node.position, node.normal, node.rest_gap);
-    node.displacement = plus(node.displacement, node.normal, node.gap - node.rest_gap);
-    node.normal = plus({0, 0, 0}, node.normal, -1);
-  }
-  return contact;
-}
-
-ContactPicture moved(ContactPicture contact, const Vec3& by) {
-  for (ContactNode& node : contact.nodes) node.position = plus(node.position, by);
-  contact.apart = true;
-  return contact;
-}
-
-void add_contacts(const Solution& s, const SceneOptions& options, const std::vector<Vec3>& moves, ScenePicture& picture) {
-  const double size = scene_size(s);
-  for (const auto& contact : s.scene().contacts) {
-    if (contact->kind != Contact::Kind::contact) continue;
-    const scene::ContactResult result = s.contact(*contact);
-    const int first = s.scene().index_of(contact->first.body.get());
-    ContactPicture shown = contact_picture(*contact, result, s.displacement(first));
-    if (of_contacts(options.field)) shown.values = contact_values(shown, options.field);
-    if (options.explode > 0 && contact->second.body) picture.contacts.push_back(moved(other_side(shown), moves[s.scene().index_of(contact->second.body.get())]));
-    picture.contacts.push_back(options.explode > 0 ? moved(std::move(shown), moves[first]) : std::move(shown));
-    if (!contact->second.body && options.obstacle) {
-      RigidPicture obstacle = obstacle_picture(*contact, result, s.loading().move_of(s.scene().index_of(*contact)), picture.deformation, size);
-      if (obstacle.points.size() >= 6) picture.obstacles.push_back(std::move(obstacle));
-    }
-  }
-}
-
 }  // namespace
 
 ScenePicture compose(const Solution& s, const SceneOptions& options) {
@@ -308,7 +266,7 @@ ScenePicture compose(const Solution& s, const SceneOptions& options) {
     for (std::size_t i = supports; i < picture.supports.size(); ++i) picture.supports[i].position = plus(picture.supports[i].position, moves[b]);
     for (std::size_t i = loads; i < picture.loads.size(); ++i) picture.loads[i].position = plus(picture.loads[i].position, moves[b]);
   }
-  if (options.contact) add_contacts(s, options, moves, picture);
+  if (options.contact) add_contacts(s, options, moves, scene_size(s), picture);
   if (of_contacts(options.field) && picture.contacts.empty())
     throw InputError(std::string("field \"") + key_of(options.field) + "\" is one of contacts; " + (options.contact ? "this scene has none" : "with 'contact' false none is drawn"));
   if (options.field != FieldChoice::pressure && options.field != FieldChoice::error && options.field != FieldChoice::none) drop_rounding(s, options.field, picture);

@@ -65,6 +65,12 @@ double visible_deformation(const scene::Solution& solution);
 // `displacement`: of the first body.
 ContactPicture contact_picture(const scene::Contact& contact, const scene::ContactResult& result, const std::vector<double>& displacement);
 
+// At each node; of open nodes the slip is NaN, which is drawn grey. Of `status` none.
+std::vector<double> contact_values(const ContactPicture& contact, FieldChoice field);
+
+// The contacts of a scene of this size, on both bodies where these are drawn apart, moved by `moves`; and their obstacles.
+void add_contacts(const scene::Solution& solution, const SceneOptions& options, const std::vector<Vec3>& moves, double size, ScenePicture& picture);
+
 // The obstacle of a contact with a rigid shape, for bodies drawn at x + m u (m is `factor`). The motion d of the shape
 // (`move`) and the gap g₀ at rest are magnified as displacements are; but a plane stays one where the part is far from
 // it: of g₀ at most c = max(0, greatest w·n) is magnified, as far as some node has come towards it. Here w = u − d is a

@@ -105,6 +105,22 @@ std::vector<int> triangles(const Contact& contact, const scene::ContactResult& r
   return out;
 }
 
+/// The contact as the second body has it: across the gap, seen from the other side.
+ContactPicture other_side(ContactPicture contact) {
+  for (ContactNode& node : contact.nodes) {
+    node.position = plus(node.position, node.normal, node.rest_gap);
+    node.displacement = plus(node.displacement, node.normal, node.gap - node.rest_gap);
+    node.normal = plus({0, 0, 0}, node.normal, -1);
+  }
+  return contact;
+}
+
+ContactPicture moved(ContactPicture contact, const Vec3& by) {
+  for (ContactNode& node : contact.nodes) node.position = plus(node.position, by);
+  contact.apart = true;
+  return contact;
+}
+
 }  // namespace
 
 ContactPicture contact_picture(const Contact& contact, const scene::ContactResult& result, const std::vector<double>& displacement) {
@@ -119,6 +135,14 @@ ContactPicture contact_picture(const Contact& contact, const scene::ContactResul
                              n.shear, contact.second.body ? contact.rows[k].gap : 0, n.gap, mesh::length(n.slip)});
   }
   return picture;
+}
+
+std::vector<double> contact_values(const ContactPicture& contact, FieldChoice field) {
+  std::vector<double> out;
+  if (field == FieldChoice::status) return out;
+  for (const ContactNode& node : contact.nodes)
+    out.push_back(field == FieldChoice::pressure ? node.pressure : field == FieldChoice::gap ? node.gap : node.status == Status::open ? NAN : node.slip);
+  return out;
 }
 
 RigidPicture obstacle_picture(const Contact& contact, const scene::ContactResult& result, const Vec3& move, double factor,
@@ -143,6 +167,22 @@ RigidPicture obstacle_picture(const Contact& contact, const scene::ContactResult
   else
     picture.points = polyline(contact, result, at, place, outward, kBeyond * size);
   return picture;
+}
+
+void add_contacts(const Solution& s, const SceneOptions& options, const std::vector<Vec3>& moves, double size, ScenePicture& picture) {
+  for (const auto& contact : s.scene().contacts) {
+    if (contact->kind != Contact::Kind::contact) continue;
+    const scene::ContactResult result = s.contact(*contact);
+    const int first = s.scene().index_of(contact->first.body.get());
+    ContactPicture shown = contact_picture(*contact, result, s.displacement(first));
+    if (options.field >= FieldChoice::pressure) shown.values = contact_values(shown, options.field);
+    if (options.explode > 0 && contact->second.body) picture.contacts.push_back(moved(other_side(shown), moves[s.scene().index_of(contact->second.body.get())]));
+    picture.contacts.push_back(options.explode > 0 ? moved(std::move(shown), moves[first]) : std::move(shown));
+    if (!contact->second.body && options.obstacle) {
+      RigidPicture obstacle = obstacle_picture(*contact, result, s.loading().move_of(s.scene().index_of(*contact)), picture.deformation, size);
+      if (obstacle.points.size() >= 6) picture.obstacles.push_back(std::move(obstacle));
+    }
+  }
 }
 
 }  // namespace dotyk::figure

@@ -24,9 +24,7 @@ void draw_note(Stage& stage, const Note& note, std::vector<Box>& taken) {
   const double em = stage.em;
   const Point at = stage.view.flat(note.position);
   const FittedText words = fitted(note.text, 0.9 * em, 0.6 * stage.room.width());
-  double width = 0;
-  for (const std::string& line : words.lines) width = std::max(width, text_extent(line, words.size).x);
-  const auto place = place_of(stage, at, {width, text_extent(note.text, words.size).y + words.depth()}, taken);
+  const auto place = place_of(stage, at, extent_of(words), taken);
   if (!place) throw InputError("no room for the note \"" + note.text + "\" on the picture; make it larger");
   const auto& [box, end] = *place;
   taken.push_back(box);
