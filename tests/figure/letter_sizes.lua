@@ -141,7 +141,15 @@ local function draw(original, options, ...)
       local changed <const> = {}
       for key, value in pairs(options) do changed[key] = value end
       changed.file, changed.width = scratch .. "/picture." .. format, width
-      if select("#", ...) > 0 then original(..., changed) else original(changed) end
+      local given <const> = { ... }
+      given[#given + 1] = changed
+      local ok <const>, why <const> = pcall(original, table.unpack(given))
+      if not ok then -- too narrow for what is on it: said with the width that would do
+        local needed <const> = tostring(why):match "make it (%d+) mm wide" or tostring(why):match "(%d+) mm"
+        if not needed or tonumber(needed) <= width then error(why, 0) end
+        entry[k] = "> " .. needed .. " mm"
+        break
+      end
       if format == "svg" then
         drawn, entry[k] = svg.read(changed.file), math.huge
         for size in pairs(drawn.sizes) do entry[k] = math.min(entry[k], size) end
@@ -189,9 +197,10 @@ for _, words in ipairs(asked) do
   if not ok then say(("%s failed: %s"):format(script, why)) failed = failed + 1 end
   for k = first, #pictures do
     local p <const> = pictures[k]
-    say(row:format(p.name, script, ("%.2f"):format(p[1]), ("%.2f"):format(p[2])))
+    local function written(size) return math.type(size) and ("%.2f"):format(size) or size or "?" end
+    say(row:format(p.name, script, written(p[1]), written(p[2])))
     for _, fault in ipairs(p.faults) do say("  " .. fault) end
-    if #p.faults > 0 or math.min(p[1], p[2]) < least_size - 1e-4 then failed = failed + 1 end
+    if #p.faults > 0 or math.min(math.type(p[1]) and p[1] or math.huge, math.type(p[2]) and p[2] or -math.huge) < least_size - 1e-4 then failed = failed + 1 end
   end
   if ok and #pictures < first then say(script .. ": no picture") end
 end
