@@ -145,7 +145,7 @@ local function draw(original, options, ...)
       given[#given + 1] = changed
       local ok <const>, why <const> = pcall(original, table.unpack(given))
       if not ok then -- too narrow for what is on it: said with the width that would do
-        local needed <const> = tostring(why):match "make it (%d+) mm wide" or tostring(why):match "(%d+) mm"
+        local needed <const> = tostring(why):match "make it (%d+) mm wide" or tostring(why):match "'width' of (%d+) mm"
         if not needed or tonumber(needed) <= width then error(why, 0) end
         entry[k] = "> " .. needed .. " mm"
         break
