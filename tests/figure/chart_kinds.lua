@@ -129,4 +129,10 @@ wrong({ polar = true, log = "y", series = { curve } }, "'polar' together with 'l
 wrong({ polar = true, y_range = { 0, 1 }, series = { curve } }, "'polar' together with 'y_range'")
 wrong({ polar = true, series = { { name = "a", x = { 1 }, y = { -1 } } } }, 'series "a": the radius -1 is negative')
 wrong({ polar = true, series = { curve, { name = "b", x = { 1 }, y = { 1 }, axis = "right" } } }, "no place in a polar chart")
+-- A peak of a map does not take the colours from the rest: they end at the 99th percentile, the greatest value is said apart.
+local steps <const>, sums <const> = {}, {}
+for j = 1, 20 do steps[j], sums[j] = j, {} for k = 1, 20 do sums[j][k] = j + k end end
+sums[7][5] = 1000
+local peaked <const> = drawn{ map = { x = steps, y = steps, values = sums, label = "sum" } }
+check.that(peaked:text "max 1000" and peaked:text "30" and not peaked:text "500", "the bar goes to the peak")
 os.remove "kinds.svg"

@@ -75,8 +75,15 @@ std::vector<double> values_of(const ScenePicture& p, const std::optional<Box>& w
   return out;
 }
 
-// Shortens the range of the colours where the field has a peak, so that a peak does not leave few colours to the rest. An end of the range moves to the
-// 99th percentile of the values on its side if the peak is more than half as high again, and by more than a share of the range, which rounding is not.
+// With three digits, or as many as tell values on the bar apart.
+std::string extreme(const char* name, double value, const ColourScale& scale, const Ticks& ticks) {
+  const double apart = std::abs(value) / std::max(scale.high - scale.low, 1e-300);
+  const int digits = std::clamp(2 + static_cast<int>(std::ceil(std::log10(std::max(apart, 1.0)))), 3, 9);
+  return std::string(name) + " " + scaled_number(value, ticks.exponent, digits);
+}
+
+}  // namespace
+
 void leave_out_peaks(ColourScale& scale, std::vector<double> values) {
   constexpr double kShare = 0.01, kFar = 1.5, kNothing = 0.02;
   const double range = scale.high - scale.low;
@@ -91,15 +98,6 @@ void leave_out_peaks(ColourScale& scale, std::vector<double> values) {
   shorten(scale.high, values.size() - 1 - beyond);
   shorten(scale.low, beyond);
 }
-
-// With three digits, or as many as tell values on the bar apart.
-std::string extreme(const char* name, double value, const ColourScale& scale, const Ticks& ticks) {
-  const double apart = std::abs(value) / std::max(scale.high - scale.low, 1e-300);
-  const int digits = std::clamp(2 + static_cast<int>(std::ceil(std::log10(std::max(apart, 1.0)))), 3, 9);
-  return std::string(name) + " " + scaled_number(value, ticks.exponent, digits);
-}
-
-}  // namespace
 
 Ticks bar_ticks(const ColourScale& scale) { return few_ticks(scale.low, scale.high, 5); }
 

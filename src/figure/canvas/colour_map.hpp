@@ -21,6 +21,10 @@ struct ColourScale {
   Colour at(double value) const;
 };
 
+// Shortens the range of the colours where the field has a peak, so that a peak does not leave few colours to the rest. An end of the range moves to the
+// 99th percentile of the values on its side if the peak is more than half as high again, and by more than a share of the range, which rounding is not.
+void leave_out_peaks(ColourScale& scale, std::vector<double> values);
+
 // Of all the bodies, or of what the window shows of them.
 ColourScale colour_scale(const ScenePicture& picture, const std::optional<Box>& window);
 

@@ -1,5 +1,7 @@
 #include "figure/chart/chart_map.hpp"
 
+#include <iterator>
+
 #include "figure/canvas/colour_map.hpp"
 
 namespace dotyk::figure {
@@ -19,7 +21,13 @@ ColourScale scale_of(const ChartMap& map) {
   scale.shown = map.names.empty() && values.least <= values.greatest;
   if (!scale.shown) return scale;
   scale.low = scale.least = values.least, scale.high = scale.greatest = values.greatest;
-  if (map.range) scale.low = (*map.range)[0], scale.high = (*map.range)[1];
+  if (map.range) {
+    scale.low = (*map.range)[0], scale.high = (*map.range)[1];
+  } else {
+    std::vector<double> finite;
+    std::ranges::copy_if(map.values, std::back_inserter(finite), [](double v) { return std::isfinite(v); });
+    leave_out_peaks(scale, std::move(finite));
+  }
   scale.diverging = scale.low < 0 && scale.high > 0;
   if (scale.low == scale.high) scale.low -= 0.5, scale.high += 0.5;
   return scale;
