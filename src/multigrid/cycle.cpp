@@ -116,7 +116,7 @@ void Cycle::damp() {
 
 bool Cycle::set(const Change& change) {
   if (!hierarchy_.set(change)) return false;
-  if (!ranks_.alone()) damp();
+  damp();
   if (!ranks_.all(finest_.set(hierarchy_.matrix(0), change.shared))) return false;
   check(KSPSetOperators(ksp_, hierarchy_.matrix(0), hierarchy_.matrix(0)));
   check(KSPSetUp(ksp_));

@@ -32,7 +32,7 @@ class Cycle {
 
  private:
   void make();
-  void damp();  ///< smoothers, where there are several ranks
+  void damp();  ///< sets the relaxation of the smoothers of coarser levels
 
   const Ranks ranks_;
   Hierarchy hierarchy_;

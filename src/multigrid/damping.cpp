@@ -8,7 +8,7 @@ namespace dotyk::multigrid {
 
 namespace {
 
-/// Multiplies with what couples a rank's rows to others'.
+/// A_between, for products with it.
 class Between {
  public:
   explicit Between(Mat A, Vec like) {

@@ -75,7 +75,7 @@ std::vector<double> values_of(const ScenePicture& p, const std::optional<Box>& w
   return out;
 }
 
-// With three digits, or as many as tell values on the bar apart.
+// With three digits, or as many as are needed to tell values within the bar's range apart.
 std::string extreme(const char* name, double value, const ColourScale& scale, const Ticks& ticks) {
   const double apart = std::abs(value) / std::max(scale.high - scale.low, 1e-300);
   const int digits = std::clamp(2 + static_cast<int>(std::ceil(std::log10(std::max(apart, 1.0)))), 3, 9);
@@ -134,7 +134,7 @@ ColourScale colour_scale(const ScenePicture& p, const std::optional<Box>& window
   const double lesser = std::min(-scale.low, scale.high), greater = std::max(-scale.low, scale.high);
   scale.diverging = p.field_signed || lesser > 0.02 * greater;
   if (!(scale.high - scale.low > 1e-6 * std::max(std::abs(scale.low), std::abs(scale.high)))) {
-    // A constant field: a bar of some height around it; zero, as the least of its values where it has no sign.
+    // A constant field has a bar of some height around it. Zero is the lower end of the bar if the field cannot be negative.
     const double half = scale.low == 0 ? 1 : 0.1 * std::abs(scale.low);
     scale.low -= scale.low == 0 && !p.field_signed ? 0 : half, scale.high += half;
   }

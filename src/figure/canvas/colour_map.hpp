@@ -39,9 +39,8 @@ struct FieldLabel {
 };
 inline FieldLabel field_of(const ScenePicture& picture) { return {picture.field_label, picture.field_unit}; }
 
-// The upright bar with ticks, extremes and label, and a triangle on an end beyond which the field goes on: its width, and its drawing
-// at the left of a room.
-// The least height, where a name that does not stand upright is broken at so many pixels.
+// The upright bar with ticks, extremes and label, and a triangle on an end beyond which the field goes on: the least height with which it is legible, where its
+// name is broken into lines no wider than `width`; its width; and its drawing at the left of a room.
 double least_bar_height(const ColourScale& scale, const FieldLabel& field, double em, double width);
 double colour_bar_width(const ColourScale& scale, const FieldLabel& field, double em);
 void draw_colour_bar(Canvas& canvas, const ColourScale& scale, const FieldLabel& field, double em, const Box& room);

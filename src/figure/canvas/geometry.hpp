@@ -47,7 +47,7 @@ std::vector<std::array<P, 4>> quarters(const std::vector<P>& corner) {
   return out;
 }
 
-// Parallels at 45 degrees, `spacing` apart, within a convex polygon; those of polygons that meet go on in each other.
+// Hatching of a convex polygon: parallel lines at 45 degrees, `spacing` apart. They continue across adjacent polygons.
 template <class P>
 std::vector<std::array<P, 2>> hatched(std::span<const P> corner, double spacing) {
   const auto level = [&](const P& p) {

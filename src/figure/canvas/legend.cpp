@@ -8,7 +8,7 @@ constexpr double gap = 0.45, between = 1.4, row = 1.45, padding = 0.5;  // in em
 
 double width_of(const LegendEntry& entry, double em) { return (entry.sample ? entry.width + gap : 0) * em + text_extent(entry.name, em).x; }
 
-// As many in each row as it holds: the number of the row of each.
+// The row of each entry if rows are filled one after the other.
 std::vector<std::size_t> rows_within(const std::vector<LegendEntry>& entries, double em, double width) {
   std::vector<std::size_t> out;
   double x = 0;
@@ -28,7 +28,7 @@ Legend::Legend(std::vector<LegendEntry> entries, double em, double rows_within_p
   const double room = rows_within_pixels - 2 * padding * em;
   if (rows_within_pixels > 0)
     for (LegendEntry& entry : entries_) entry.name = shortened(entry.name, em, room - (entry.sample ? entry.width + gap : 0) * em);
-  // The fewest rows; in columns, where these are not too wide for as few.
+  // As few rows as hold all entries; these stand in columns if columns need no more rows.
   const std::size_t rows = rows_within_pixels > 0 ? rows_within(entries_, em, room).back() + 1 : entries_.size();
   const std::vector<LegendEntry> given = entries_;
   place_in_columns((entries_.size() + rows - 1) / rows);
@@ -53,7 +53,7 @@ void Legend::place_in_columns(std::size_t columns) {
   }
 }
 
-// All about equally long, in the middle.
+// Rows of about equal length, centred.
 void Legend::place_in_rows(std::size_t rows, double width) {
   while (rows < entries_.size() && rows_within(entries_, em_, width - 0.5 * em_).back() + 1 == rows) width -= 0.5 * em_;
   const std::vector<std::size_t> of = rows_within(entries_, em_, width);

@@ -18,8 +18,8 @@ struct LegendEntry {
 
 class Legend {
 public:
-  // em: height of the letters in pixels. rows_within_pixels: entries run in as few rows as can be, no wider than this, in columns if these
-  // take no more; longer names are shortened. 0: one entry below the other.
+  // em: height of the letters in pixels. rows_within_pixels: entries take as few rows of at most this width as possible, and stand in columns if columns need no
+  // more rows; longer names are shortened. 0: one entry below the other.
   Legend(std::vector<LegendEntry> entries, double em, double rows_within_pixels = 0);
 
   bool empty() const { return entries_.empty(); }

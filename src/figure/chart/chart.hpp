@@ -26,7 +26,7 @@ std::vector<std::vector<Point>> curves(const std::vector<double>& x, const std::
 // all; smaller where there is little room. What it takes is added to `occupied`.
 void draw_guide(Canvas& canvas, const ChartPicture& picture, const SlopeGuide& guide, const Axes& axes, Occupied& occupied);
 
-// Pixels beside the plot, and across it; of polar axes across the circle. And a note for which there is no free place.
+// Pixels beside the plot, and the width of the plot (of polar axes, of the circle). `crowded`: a note for which there is no free place.
 struct ChartMargins {
   double left = 0, right = 0, below = 0, above = 0, plot = 0;
   const ChartNote* crowded = nullptr;

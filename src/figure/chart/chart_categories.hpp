@@ -5,13 +5,13 @@
 
 namespace dotyk::figure {
 
-// All in letters of one size: level, in up to three lines, or upright in full length where that is too wide: then the picture grows.
+// All in letters of one size: level, in up to three lines; if that is too wide, upright and in full length, for which the picture grows.
 class CategoryNames {
 public:
   // With so many pixels from one to the next.
   CategoryNames(const std::vector<std::string>& names, double em, double spacing);
   double height() const { return height_; }  // pixels that they take below the axis
-  // Throws InputError where upright names meet.
+  // Throws InputError if the names overlap even when they stand upright.
   void draw(Canvas& canvas, const Axes& axes) const;
 
 private:

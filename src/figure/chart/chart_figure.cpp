@@ -126,7 +126,7 @@ private:
 
   bool equal() const { return !axes_.left.x.log && !axes_.left.y.log && picture_.x_range && picture_.x_range == picture_.y_range; }
 
-  // What names of angles leave.
+  // The room beside the circle that the names of angles take, and what they leave.
   Point rim() const { return picture_.polar ? polar_rim(em_) : Point{}; }
   double inner_width() const { return room_.width() - 2 * rim().x; }
   double inner_height() const { return room_.height() - 2 * rim().y; }
@@ -306,7 +306,7 @@ void render(const ChartPicture& picture) {
   constexpr double kShare = 0.45;  // of the height
   const double least = std::max(least_plot(picture), kShare * picture.height) + (picture.polar ? 2 * polar_rim(frame.em).y : 0);
   grown.height = std::clamp(static_cast<int>(margins.above + margins.below + least), picture.height, std::max(picture.height, greatest_side));
-  // So may notes.
+  // Notes without a free place may need a higher picture, too.
   for (int tries = 0; tries < 4 && draw_on(tried, grown, frame).crowded; ++tries) grown.height = std::clamp(grown.height * 6 / 5, grown.height, std::max(grown.height, greatest_side));
   Canvas canvas;
   require_room(picture, draw_on(canvas, grown, frame), 1);

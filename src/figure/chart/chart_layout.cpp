@@ -17,7 +17,7 @@ double held(Wide value, double least = std::numeric_limits<double>::lowest()) {
   return static_cast<double>(std::clamp(value, Wide{least}, Wide{std::numeric_limits<double>::max()}));
 }
 
-// A stretch of a curve: how much its slope differs, as a share, and the points in its middle.
+// A stretch of a curve: the relative difference of its slope from that of a guide, and the points of its middle half.
 struct Stretch {
   double off = 0;
   std::vector<Point> middle;
@@ -38,7 +38,7 @@ std::vector<Stretch> stretches(const std::vector<Point>& points, Point way) {
   return out;
 }
 
-// Places along curves where their slope, pixels over pixels, is about that of the way; where it nowhere is, those where it comes nearest.
+// Points of curves where their slope in pixels is about that of `way`; if there are none, those where it is nearest to that.
 Occupied like(const ChartPicture& picture, Point way, const Axes& axes) {
   constexpr double kAbout = 0.12, kWorse = 1.2;
   std::vector<Stretch> all;
@@ -171,7 +171,7 @@ void draw_guide(Canvas& canvas, const ChartPicture& picture, const SlopeGuide& g
   const double wide = axes.room.width(), high = axes.room.height();
   // Higher than a letter where there is room, though the slope is slight.
   const double full = std::max(std::min(0.16 * wide, 0.26 * high / steep), std::min(0.35 * wide, 1.2 * em / steep));
-  // Rather small, and without the length 1 of its level side, beside its curve than large elsewhere.
+  // A small guide beside its curve, even without the 1 at its level side, is better than a large one elsewhere.
   constexpr double kNear = 2.5, kFar = INFINITY;  // em
   for (const auto& [share, one, farthest] : {std::tuple{1.0, true, kNear}, {0.7, true, kNear}, {0.45, true, kNear}, {0.7, false, kNear}, {0.45, false, kNear}, {0.3, false, kNear}, {0.45, true, kFar}, {0.3, false, kFar}}) {
     // With room for the labels on the right, and on the level side: below where the line rises, else above.

@@ -8,8 +8,8 @@ namespace dotyk::figure {
 
 // Borders of the cells around values that ascend: one more than there are values.
 std::vector<double> cell_borders(const std::vector<double>& at, bool log);
-// The same on polar axes. Nothing is known beyond the first and the last value, where a radius or an angle may have its natural end, such
-// as a colatitude at 90°: cells there are halved. Cells of angles all around meet instead.
+// The same on polar axes. There the outer halves of the first and last cells are left out: a radius or an angle may end at its last value, as a colatitude does
+// at 90°. Angles all around have whole cells, which meet.
 std::vector<double> polar_borders(const std::vector<double>& at, bool angles);
 
 // Ticks at the values, where they are whole numbers one after the other; else none.

@@ -43,7 +43,6 @@ const SceneValue& field_of(FieldChoice choice) {
 const char* key_of(FieldChoice choice) { return field_names()[static_cast<std::size_t>(choice)].first; }
 
 bool is_stress(FieldChoice field) { return field >= FieldChoice::von_mises && field <= FieldChoice::xy; }
-bool of_contacts(FieldChoice field) { return field >= FieldChoice::pressure; }
 
 /// √ of each cell's share of the square of the estimate, for each of the pieces that cells of order 2 are cut into.
 std::vector<double> error_indicators(const Solution& s, int index, int cells) {

@@ -12,6 +12,8 @@ namespace dotyk::figure {
 // The last four are of contacts, on their surfaces in space and on maps.
 enum class FieldChoice { none, displacement, ux, uy, uz, von_mises, xx, yy, zz, yz, xz, xy, error, pressure, gap, slip, status };
 
+inline bool of_contacts(FieldChoice field) { return field >= FieldChoice::pressure; }
+
 // As scripts call them, in the order of the choices.
 const std::vector<std::pair<const char*, FieldChoice>>& field_names();
 

@@ -67,7 +67,7 @@ std::vector<Vec3> seen_by_nodes(const Contact& contact, const scene::ContactResu
   return at;
 }
 
-/// The points in the order along the part, its pieces by the coordinate across `outward`; a plane's line goes beyond both ends.
+/// The points in their order along the part; separate pieces follow each other by the coordinate across `outward`. The line of a plane goes beyond both ends.
 std::vector<double> polyline(const Contact& contact, const scene::ContactResult& result, const std::vector<Vec3>& at,
                              const std::vector<int>& place, const Vec3& outward, double beyond) {
   const auto across = [&](int k) { return result.nodes[k].x[1] * outward[0] - result.nodes[k].x[0] * outward[1]; };
@@ -130,7 +130,7 @@ ContactPicture contact_picture(const Contact& contact, const scene::ContactResul
   picture.facets = contact_facets(contact, result.nodes);
   for (std::size_t k = 0; k < result.nodes.size(); ++k) {
     const scene::ContactNode& n = result.nodes[k];
-    // The mean place of what a node of mortar stands for is not where facets have it.
+    // Not n.x: the mean position of what a node of mortar stands for may lie off the node.
     picture.nodes.push_back({contact.first.body->mesh->point(n.node), mesh::at_node(displacement, n.node, contact.first.body->dimension()), n.normal, n.pressure, n.weight, static_cast<Status>(static_cast<int>(n.status)),
                              n.shear, contact.second.body ? contact.rows[k].gap : 0, n.gap, mesh::length(n.slip)});
   }
@@ -175,7 +175,7 @@ void add_contacts(const Solution& s, const SceneOptions& options, const std::vec
     const scene::ContactResult result = s.contact(*contact);
     const int first = s.scene().index_of(contact->first.body.get());
     ContactPicture shown = contact_picture(*contact, result, s.displacement(first));
-    if (options.field >= FieldChoice::pressure) shown.values = contact_values(shown, options.field);
+    if (of_contacts(options.field)) shown.values = contact_values(shown, options.field);
     if (options.explode > 0 && contact->second.body) picture.contacts.push_back(moved(other_side(shown), moves[s.scene().index_of(contact->second.body.get())]));
     picture.contacts.push_back(options.explode > 0 ? moved(std::move(shown), moves[first]) : std::move(shown));
     if (!contact->second.body && options.obstacle) {

@@ -102,6 +102,17 @@ void check_body(const BodyPicture& body, int dimension) {
   check_nodes(body.facets, body.nodes_per_facet, n, who + ", facets");
 }
 
+// Least and greatest coordinates of the nodes as drawn.
+std::array<Vec3, 2> drawn_box(const ScenePicture& p) {
+  Vec3 least{1e300, 1e300, 1e300}, most{-1e300, -1e300, -1e300};
+  for (const BodyPicture& body : p.bodies)
+    for (std::size_t i = 0; i < body.points.size() / 3; ++i) {
+      const Vec3 at = body.node(i, p.deformation);
+      for (std::size_t c = 0; c < 3; ++c) least[c] = std::min(least[c], at[c]), most[c] = std::max(most[c], at[c]);
+    }
+  return {least, most};
+}
+
 void check_window(const ScenePicture& p) {
   if (!p.window) return;
   const auto [x0, y0, x1, y1] = *p.window;
@@ -109,26 +120,17 @@ void check_window(const ScenePicture& p) {
   if (p.bodies.front().dimension != 2) refuse("needs a scene in the plane; this one is in space");
   if (!(finite(*p.window) && x0 < x1 && y0 < y1)) refuse("is empty; it must be {x0, y0, x1, y1} with x0 < x1 and y0 < y1");
   if (seen(p, box_of(*p.window)).body) return;
-  Bounds all;
-  for (const BodyPicture& body : p.bodies)
-    for (std::size_t i = 0; i < body.points.size() / 3; ++i) {
-      const Vec3 at = body.node(i, p.deformation);
-      all.add(Point{at[0], at[1]});
-    }
-  refuse("shows no body; as drawn, they lie within " + box_text({all.left, all.bottom, all.right, all.top}));
+  const auto [least, most] = drawn_box(p);
+  refuse("shows no body; as drawn, they lie within " + box_text({least[0], least[1], most[0], most[1]}));
 }
 
-// A window or a cut in space leaves something to be seen.
+// Refuses a window or a cut in space that leaves nothing to be seen.
 void check_space(const ScenePicture& p) {
   if (!p.cut && !p.region) return;
-  Vec3 least{1e300, 1e300, 1e300}, most{-1e300, -1e300, -1e300};
+  const auto [least, most] = drawn_box(p);
   bool stays = !p.cut;
   for (const BodyPicture& body : p.bodies)
-    for (std::size_t i = 0; i < body.points.size() / 3; ++i) {
-      const Vec3 at = body.node(i, p.deformation);
-      for (std::size_t c = 0; c < 3; ++c) least[c] = std::min(least[c], at[c]), most[c] = std::max(most[c], at[c]);
-      stays = stays || p.cut->beyond(at) < 0;
-    }
+    for (std::size_t i = 0; !stays && i < body.points.size() / 3; ++i) stays = p.cut->beyond(body.node(i, p.deformation)) < 0;
   const std::string lie = text("; as drawn, they lie within {", least[0], ", ", least[1], ", ", least[2], ", ", most[0], ", ", most[1], ", ", most[2], "}");
   if (p.cut) require(finite(p.cut->point, p.cut->normal) && p.cut->normal != Vec3{0, 0, 0}, "a cut needs a finite point and a normal that is not zero");
   if (!stays) throw InputError("'cut' leaves nothing of the bodies" + lie + ", and what its 'normal' points to is left out");
@@ -198,7 +200,7 @@ void check_drawing(const CurveDrawing& c) {
   for (const PageCurve& curve : c.curves)
     require(!curve.x.empty() && curve.x.size() == curve.y.size() && finite(curve.x, curve.y), "a curve needs as many finite y as x, one at least");
   for (const auto& range : {c.x_range, c.y_range})
-    require(!range || (is_range(*range)), "the range of an axis must be {least, greatest}");
+    require(!range || is_range(*range), "the range of an axis must be {least, greatest}");
 }
 
 void check(const PagePicture& p) {

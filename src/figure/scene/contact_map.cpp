@@ -167,7 +167,7 @@ std::optional<Flat> unrolled(const ContactPicture& contact, const Vec3& lines) {
   return flat;
 }
 
-// Seen along the mean normal a surface that turns away from the eye would lie upon itself.
+// Whether a part of the surface faces away from the mean normal: seen along that, the map would cover itself.
 bool turns_away(const ContactPicture& contact) {
   constexpr double kBehind = -0.2;
   const Vec3 mean = mean_normal(contact, false);

@@ -31,7 +31,7 @@ void draw_strip(Stage& stage, const ContactPicture& contact) {
     if (loaded(i)) stage.over.line(at[i], tops[i], std::max(0.8, stage.em / 30), pressure_line, 0.6);
 }
 
-// Puts the greatest of the candidates in place of that of the chosen ones which is next to it; a single one of it.
+// Makes sure that the greatest candidate is chosen: it takes the place of the chosen one that is nearest to it, or is the only one.
 void keep_greatest(std::vector<std::size_t>& chosen, const std::vector<std::size_t>& candidates, const std::vector<Point>& at, const std::function<double(std::size_t)>& value) {
   if (candidates.empty()) return;
   const std::size_t greatest = *std::ranges::max_element(candidates, {}, value);
@@ -104,12 +104,14 @@ void draw_line(Stage& stage, const ContactPicture& contact) {
   if (markers)
     for (const std::size_t i : stage.spaced(at, 0.95 * stage.em, 0.36 * stage.em)) marked.insert(i);
   for (const std::size_t i : marked) mark(stage, contact.nodes[i].status, at[i], marker_size);
-  // Each run of one status keeps a marker, which is as large as there is room for, and no smaller than can be told apart, if it lies on no other of that size.
+  // Each run of one status keeps a marker, as large as there is room for but still legible, unless it would lie on another of these.
   std::vector<Point> small;
   for (const Run& run : runs(contact, at)) {
     const std::size_t middle = run.nodes[run.nodes.size() / 2];
     const double size = std::clamp(run.length / stage.em, least_marker, marker_size);
-    if ((!markers && run.length < least_marker * stage.em) || std::ranges::any_of(small, [&](Point p) { return length(p - at[middle]) < size * stage.em; }) || !stage.shows(at[middle], 0.36 * stage.em) || std::ranges::any_of(run.nodes, [&](int i) { return marked.contains(i); })) continue;
+    if (!markers && run.length < least_marker * stage.em) continue;
+    if (!stage.shows(at[middle], 0.36 * stage.em) || std::ranges::any_of(run.nodes, [&](int i) { return marked.contains(i); })) continue;
+    if (std::ranges::any_of(small, [&](Point p) { return length(p - at[middle]) < size * stage.em; })) continue;
     mark(stage, contact.nodes[middle].status, at[middle], size);
     small.push_back(at[middle]);
   }
@@ -156,7 +158,7 @@ LegendEntry status_entry(const Stage& stage, Status status) {
           }};
 }
 
-// With the power of ten that a colour bar would have.
+// From 10⁴ on with a power of ten whose exponent is a multiple of 3, as on colour bars.
 std::string at_most(const char* what, double value, const std::string& unit) {
   const int exponent = value >= 1e4 ? 3 * static_cast<int>(std::floor(std::log10(value) / 3)) : 0;
   const std::string factor = exponent ? " × " + power_of_ten(exponent) : "";

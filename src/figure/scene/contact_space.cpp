@@ -25,11 +25,11 @@ Plan plan_of(const ContactPicture& contact) {
   return axis == 1 ? Plan{0, 2} : Plan{1, 2};
 }
 
-// Before the surface of the body. One drawn apart is seen from outside of its body alone, so it may stand off that by more than the deformation, which
-// is drawn magnified, puts it below the edges of other cells.
+// How many pixels before the body the contact is drawn. Where bodies are drawn apart, a magnified deformation may put facets of the contact below the other body's
+// surface; as only facets that face the eye are drawn then, they can be lifted by more than that.
 double lift(const Stage& stage, const ContactPicture& contact) { return contact.apart ? stage.em : 1.5; }
 
-// The facets that are to be seen.
+// The facets that are drawn: all, or those that face the eye where the bodies are drawn apart.
 Facets seen_facets(const Stage& stage, const ContactPicture& contact) {
   Facets all{contact.facets, contact.nodes_per_facet};
   if (!contact.apart) return all;
@@ -153,7 +153,7 @@ std::optional<ScenePicture> inset_of(const ScenePicture& picture, const ColourSc
   if (*map.printed < least_inset) return std::nullopt;
   map.length_unit = picture.length_unit;
   map.pressure = picture.pressure, map.shear = picture.shear;
-  if (!contact->values.empty()) map.field_label = picture.field_label, map.field_signed = picture.field_signed, map.field_range = {scale.low, scale.high};
+  if (!contact->values.empty()) map.field_signed = picture.field_signed, map.field_range = {scale.low, scale.high};
   map.height = static_cast<int>(inset_height * em);
   // As high as it needs: what it leaves free, or lacks, is known once it is laid out.
   for (int round = 0; round < 2; ++round) {

@@ -150,7 +150,7 @@ void draw_scene(const ScenePicture& picture, const std::function<void(Stage&)>& 
     const double missing = lay_out(stage);
     if (const double lacks = lacking_width(stage); lacks > 0) {
       if (widened(grown)) continue;
-      refuse_narrow(picture, lacks);
+      refuse_narrow(grown, lacks);
     }
     if (round == kRounds || !(missing > 1)) return write_picture(grown, painted(stage));
     grown.height = std::min(std::max(grown.height, greatest_side), grown.height + static_cast<int>(std::ceil(missing)));

@@ -89,7 +89,7 @@ private:
   }
   double bar_width() const { return scale_ ? colour_bar_width(*scale_, field_of(shown()), em_) : 0; }
 
-  // Panels of one field have one range of colours, and one bar if no others are there.
+  // Panels that show the same field share the range of its colours; if all panels show it, they share one bar, too.
   void share_ranges() {
     std::map<std::pair<std::string, std::string>, std::vector<ScenePicture*>> fields;
     for (ScenePicture& p : panels_)
@@ -101,7 +101,7 @@ private:
       }
   }
 
-  // Where the panels' deformation factors differ, each says its own below.
+  // If the deformation factors of the panels differ, each panel states its own below the scene.
   void name_scales() {
     std::set<double> factors;
     for (const ScenePicture& p : panels_)
@@ -150,7 +150,7 @@ private:
     else same->samples.emplace(kind, entry.sample);
   }
 
-  // A status, and the pressure, are drawn differently in space, in the plane and on maps: shows all its samples side by side.
+  // Statuses and the pressure are drawn differently in space, in the plane and on maps: their entries show all samples side by side.
   static LegendEntry joined(Named named) {
     const auto is_status = [&](Status s) { return named.entry.name == status_name(s); };
     const bool differs = std::ranges::any_of(std::array{Status::open, Status::closed, Status::stick, Status::slip}, is_status) || named.entry.name.starts_with("contact pressure");

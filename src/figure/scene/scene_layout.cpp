@@ -50,7 +50,7 @@ void aim(Stage& stage) {
   const Vec3 vertical = std::abs(view.towards[2]) > 0.999 ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
   view.right = unit(cross(vertical, view.towards));
   view.up = cross(view.towards, view.right);
-  if (!stage.body_boxes.empty()) view.depth = dot(part_way(stage.body_boxes[0][0], stage.body_boxes[0][1], 0.5), view.towards);  // numbers for VTK are short
+  if (!stage.body_boxes.empty()) view.depth = dot(part_way(stage.body_boxes[0][0], stage.body_boxes[0][1], 0.5), view.towards);  // VTK keeps coordinates in single precision
   if (!stage.picture.region) return;
   const auto& r = *stage.picture.region;
   Bounds seen;
@@ -333,6 +333,14 @@ void draw_column(Stage& stage, const Surroundings& around) {
   draw_colour_bar(stage.over, stage.scale, field_of(p), em, {alone ? right - around.bar : left + (stage.inset ? 2 * em : 0.5 * em), middle - height / 2, p.width - 0.3 * em, middle + height / 2});
 }
 
+// In the plane, where symbols and labels leave less than a share of the room to the scene itself: how many pixels more they need across or up; else none.
+std::optional<double> more_for_symbols(const Stage& stage, double (Box::*extent)() const, const Box& room) {
+  constexpr double kShare = 0.3;
+  const double drawn = (stage.drawn.*extent)(), symbols = (stage.frame.*extent)() - drawn, all = (room.*extent)();
+  if (!stage.plane || stage.window || drawn >= kShare * all || symbols <= (1 - kShare) * all) return std::nullopt;
+  return symbols / (1 - kShare) - all;
+}
+
 }  // namespace
 
 double lay_out(Stage& stage) {
@@ -350,20 +358,15 @@ double lay_out(Stage& stage) {
   if (p.axes && !stage.plane) draw_triad(stage, triad_place(stage, around.room));
   double missing = std::max({column_height(stage, around) - room_of_column(stage, around), least_plot(p) - around.room.height(), stage.frame.height() - around.room.height()});
   if (!stage.plane && !stage.window) stage.frame = around.room;
-  constexpr double kShare = 0.3;  // of the height is the scene's, the rest that of symbols and labels
-  const double symbols = stage.frame.height() - stage.drawn.height();
-  if (stage.plane && !stage.window && stage.drawn.height() < kShare * around.room.height() && symbols > (1 - kShare) * around.room.height())
-    missing = std::max(missing, symbols / (1 - kShare) - around.room.height());
+  if (const auto more = more_for_symbols(stage, &Box::height, around.room)) missing = std::max(missing, *more);
   return missing;
 }
 
 double lacking_width(const Stage& stage) {
-  constexpr double kLeast = 15, kShare = 0.3;  // mm; of the room's width
+  constexpr double kLeast = 15;  // mm
   const ScenePicture& p = stage.picture;
-  const double symbols = stage.frame.width() - stage.drawn.width();
   double lacks = std::max(kLeast / printed_width(p) * p.width - stage.room.width(), stage.frame.width() - stage.room.width() - 1);
-  if (stage.plane && !stage.window && stage.drawn.width() > 0 && stage.drawn.width() < kShare * stage.room.width() && symbols > (1 - kShare) * stage.room.width())
-    lacks = std::max(lacks, symbols / (1 - kShare) - stage.room.width() + 1);
+  if (const auto more = more_for_symbols(stage, &Box::width, stage.room); more && stage.drawn.width() > 0) lacks = std::max(lacks, *more);
   for (const LegendEntry& entry : stage.entries)
     if (stage.own_legend) lacks = std::max(lacks, Legend({entry}, legend_size * stage.em).width() + 2 * stage.em - p.width);
   return lacks;

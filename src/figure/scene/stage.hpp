@@ -111,9 +111,9 @@ std::vector<Painted> painted(Stage& stage);
 // and colour bar; draws these. Returns how many pixels the picture's height lacks for a scene and a colour bar that are legible;
 // less than 0: so many it does not need.
 double lay_out(Stage& stage);
-// Of a stage that is laid out: how many pixels its picture is too narrow, as what stands beside the scene leaves too little to that; at most 0: none.
+// How many pixels wider the picture of a stage that is laid out must be, so that what stands beside the scene leaves it enough room; at most 0: it is wide enough.
 double lacking_width(const Stage& stage);
-// Throws InputError, which names the width needed, where that is above 0. `remedy`: what else would help.
+// Throws InputError, which names the width needed, if a sheet lacks pixels. `remedy`: what else would help.
 void refuse_narrow(const Sheet& sheet, double lacking, const std::string& remedy = "");
 
 // Fits the picture's window into the room. The greatest pressure comes to a fifth of its height, less where it would not fit; from
@@ -147,10 +147,11 @@ Layer note_layer();
 Layer support_layer();
 Layer load_layer();
 
-// A map of the contact that carries most of a scene in space, with its size: of its statuses, or in the colours of the scene where these show a field of contacts. Its drawing, with its lower left pixel there.
+// A small map of the contact that carries most in a scene in space: of its statuses, or of the field of contacts in the colours of the scene. draw_inset() draws it
+// with its lower left pixel at `corner`.
 std::optional<ScenePicture> inset_of(const ScenePicture& picture, const ColourScale& scale);
 void draw_inset(Stage& stage, Point corner);
-// A contact on its map; the sample of a status in its legend.
+// A contact on its map; the hatching of a polygon that slips; the sample of a status in the map's legend.
 void draw_contact_map(Stage& stage, const ContactPicture& contact);
 void hatch_slip(Canvas& canvas, std::span<const Point> polygon, double em);
 LegendEntry map_status_entry(const Stage& stage, Status status);
@@ -169,7 +170,7 @@ struct Label {
   Colour colour;
   double ground = 0;  // pixels of pale ground around it; 0: a rim of white instead
   Point direction = {};  // outwards from what it explains
-  std::optional<Point> tip = {};  // a thin line leads there where that is far
+  std::optional<Point> tip = {};  // if it is far from the label, a thin line leads to it
 };
 // Those that do not overlap one before them.
 void draw_labels(Canvas& canvas, const std::vector<Label>& labels);

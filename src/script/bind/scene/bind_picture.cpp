@@ -8,7 +8,7 @@ namespace dotyk::script {
 
 namespace {
 
-// Of solution:picture. `magnify` draws it with another factor on the displacement; none: that was given.
+// What solution:picture makes. `magnify` changes the factor on the displacement; empty if the script gave that factor.
 struct Panel {
   figure::ScenePicture picture;
   std::function<void(figure::ScenePicture&, double)> magnify;
@@ -142,7 +142,7 @@ std::shared_ptr<Panel> make_picture(Call& call) {
   return panel;
 }
 
-// Pictures of the same bodies whose factors are automatic get the least of these: frames of a history can be compared.
+// Pictures of the same bodies with automatic factors all get the least of these, so that frames of a history can be compared.
 void share_factors(const std::vector<std::shared_ptr<Panel>>& panels, std::vector<ScenePicture>& pictures) {
   const auto bodies = [](const ScenePicture& p) {
     std::string names;
