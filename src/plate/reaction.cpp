@@ -19,6 +19,7 @@ namespace {
 
 struct AtVertex {
   double force = 0, moment = 0, length = 0;
+  Vector2d couple = {0, 0};  ///< HCT: what holds the gradient there
   const Sample* deflection = nullptr;
   const Sample* rotation = nullptr;
   int row = -1;  ///< of the deflection
@@ -73,6 +74,7 @@ class ReactionCollector {
     if (sample.law.kind == Kind::load) force = sample.law.value * sample.share;
     AtVertex& vertex = at[sample.place];
     vertex.force += force;
+    if (sample.held && !model_.space.frame.empty()) vertex.couple = couple(sample.place);
     vertex.deflection = &sample;
     vertex.row = sample.row;
   }
@@ -92,12 +94,15 @@ class ReactionCollector {
     for (const int n : model_.space.edges.edges[sample.place].node) add(n, 0.5);
   }
 
-  /// HCT: what this law has of the moment that holds a vertex's gradient, the least that laws can share it as.
+  Vector2d couple(int vertex) const {
+    const int first = model_.space.of_vertex(vertex) + 1;
+    const Vector2d a = model_.space.frame[vertex], b(-a[1], a[0]);
+    return (holding_[first] * a + holding_[first + 1] * b) * model_.space.unit;
+  }
+
+  /// HCT: what this law has of the couple that holds a vertex's gradient, the least that laws can share it as.
   double held_moment(const Sample& sample) const {
-    const int first = model_.space.of_vertex(sample.place) + 1;
-    const Vector2d a = model_.space.frame[sample.place], b(-a[1], a[0]);
-    const Vector2d moment = (holding_[first] * a + holding_[first + 1] * b) * model_.space.unit;
-    return slope_direction(model_.space, sample).dot(algebra::MinimumNorm(model_.held.directions.at(sample.place)).solve(algebra::Vector(moment)));
+    return slope_direction(model_.space, sample).dot(algebra::MinimumNorm(model_.held.directions.at(sample.place)).solve(algebra::Vector(couple(sample.place))));
   }
 
   const Solution& s_;
@@ -121,6 +126,20 @@ Status status(const Solution& s, const std::vector<const problem::RowGroup*>& gr
 }
 
 double distance(const EdgePoint& a, const EdgePoint& b) { return std::hypot(a.x - b.x, a.y - b.y); }
+
+/// What holds the slope along a smooth edge at a vertex acts as two forces on the vertices beside it.
+void add_couples(std::vector<EdgePoint>& piece, const std::map<int, AtVertex>& at) {
+  const bool closed = piece.front().vertex == piece.back().vertex;
+  for (std::size_t i = closed ? 0 : 1; i + 1 < piece.size(); ++i) {
+    if (piece[i].corner) continue;
+    const std::size_t before = i > 0 ? i - 1 : piece.size() - 2, after = i + 1;
+    const Vector2d along(piece[after].x - piece[before].x, piece[after].y - piece[before].y);
+    const double force = at.at(piece[i].vertex).couple.dot(along) / along.squaredNorm();
+    piece[before].force -= force, piece[after].force += force;
+    if (closed && before == 0) piece.back().force -= force;
+    if (closed && after + 1 == piece.size()) piece.front().force += force;
+  }
+}
 
 /// What half of the first edge carries, by the reaction per length of the next two nodes, taken to be linear.
 double carried(const EdgePoint& corner, const EdgePoint& next, const EdgePoint& after) {
@@ -151,6 +170,7 @@ EdgeReaction reaction(const Solution& s, int support) {
       if (!piece.empty()) point.at = piece.back().at + distance(piece.back(), point);
       piece.push_back(point);
     }
+    add_couples(piece, collected.at);
     out.pieces.push_back(std::move(piece));
   }
   return out;

@@ -12,7 +12,7 @@ struct EdgePoint {
   double length;       ///< that it stands for
   double deflection;
   double slope;        ///< ∂ₙu, mean of the edge's two sides
-  double force;        ///< upwards, loads by laws included
+  double force;        ///< upwards, loads by laws included; HCT: also the couples that hold the slope along a smooth edge, as pairs of forces
   double moment;       ///< doing work on ∂ₙu: −Mₙ times length
   double per_length() const { return force / length; }
   problem::SupportLaw deflection_law, rotation_law;

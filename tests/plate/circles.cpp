@@ -52,6 +52,27 @@ TEST_CASE("round plates under a constant load, clamped and simply supported: no 
   }
 }
 
+TEST_CASE("HCT: the reaction per length along a clamped round edge is the load's share, with the couples that hold the slope along it") {
+  for (const int cells : {24, 48}) {
+    CAPTURE(cells);
+    const auto s = test::solved(disc(Element::hct, cells, kHeld, kQ));
+    const auto edge = reaction(*s, 0);
+    std::vector<double> off;
+    double force = 0;
+    for (std::size_t i = 0; i + 1 < edge.pieces.front().size(); ++i) {
+      const EdgePoint& p = edge.pieces.front()[i];
+      off.push_back(std::abs(p.per_length() / (-kQ * kR / 2) - 1));
+      force += p.force;
+    }
+    CHECK(force == doctest::Approx(edge.force).epsilon(1e-12));
+    std::ranges::sort(off);
+    // 4 % at the six nodes of the edge where only two cells meet, on every mesh: the sides of a polygon shear otherwise than a circle.
+    CHECK(off[off.size() - 19] < 0.005);
+    CHECK(off[off.size() / 2] < 0.2 / (cells * cells));
+    CHECK(off.back() < 0.05);
+  }
+}
+
 TEST_CASE("a force at the centre of a clamped round plate") {
   const double exact = kQ * kR * kR / (16 * kPi * kD);
   for (const Element element : kElements) {

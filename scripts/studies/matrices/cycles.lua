@@ -221,7 +221,6 @@ for _, kind in ipairs(kinds) do
   print(("%-28s  %s"):format(label, table.concat(line, " ")))
   local most <const> = math.max(table.unpack(y))
   local group <const> = series[most > 1 and "often" or "rarely"]
-  for i in ipairs(x) do x[i] = x[i] + 0.08 * #group end -- whiskers side by side
   table.insert(group, { name = most > 0 and label or label .. ": never", x = x, y = y, low = low, high = high, bars = true })
 end
 print(("%d of %d problems were left unsolved: every cycle was noticed, and Lemke's method went on from there"):format(

@@ -27,8 +27,11 @@ local function bodies(a)
   return scene, scene:contact{ upper:part"bottom", lower:part"top" }
 end
 
-local regularity, apart_curve = common.curve "found", common.curve()
-local proportion <const> = common.curve("proportional to a", { reference = true })
+local names <const> = { [2] = "two screws, one linear condition", [3] = "three screws" }
+local regularity, difference = {}, {} -- by the number of screws
+for screws, name in pairs(names) do
+  regularity[screws], difference[screws] = common.curve(name, { style = "points" }), common.curve(name, { style = "points" })
+end
 local x, y, wrong, worst, refused, gave_up = {}, {}, 0, 0, {}, 0
 print "      a   kernel  screws  regularity   forces apart   ends"
 for half = 0, 32 do
@@ -39,21 +42,18 @@ for half = 0, 32 do
   local text = ("%7.0e   %6s"):format(a, said and exact.kernel or "-")
   if not held then
     refused[#refused + 1] = a
-    apart_curve:add(a, 0/0) -- a gap
     if not s:find("the screws do not hold every rigid motion", 1, true) then wrong = wrong + 1 end
     print(text .. "  refused: " .. s:match "solve: (.*)":sub(1, 90))
   else
     local least, screws = math.huge, 0
     for _, placed in ipairs(s.screws) do least, screws = math.min(least, placed.regularity), #placed.rows end
-    if screws == 3 then
-      regularity:add(a, least)
-      if a < 2e-3 and a > 2e-7 then x[#x + 1], y[#y + 1] = a, least end
-    end
+    regularity[screws]:add(a, least)
+    if screws == 3 and a < 2e-3 and a > 2e-7 then x[#x + 1], y[#y + 1] = a, least end
     if common.residual(s) > 1e-8 and s.converged then wrong = wrong + 1 end
     if said and exact.converged and s.converged then
       local apart = common.apart(s, exact, contact)
       worst = math.max(worst, apart)
-      apart_curve:add(a, math.max(apart, 1e-17))
+      difference[screws]:add(a, math.max(apart, 1e-17))
       print(("%s  %6d  %10.1e   %12.1e   %s"):format(text, screws, least, apart, s.reason:sub(1, 60)))
     else
       gave_up = gave_up + 1
@@ -62,10 +62,10 @@ for half = 0, 32 do
   end
 end
 local slope <const> = fit.order(x, y)
-for k = 1, #x do proportion:add(x[k], y[1] * x[k] / x[1]) end
+local no_screws <const> = { name = "refused", x = refused, crossed = true }
 dotyk.chart{ file = "images/stability_screws.png", x = "slope a of the groove", size = { 1000, 1000 }, panels = {
-  { y = "regularity", log = "xy", series = { regularity, proportion } },
-  { y = "difference of forces", log = "xy", series = { apart_curve }, y_range = { 1e-16, 1e-10 } } } }
+  { y = "regularity", log = "xy", strip = "refused", slopes = { 1 }, series = { regularity[3], regularity[2], no_screws } },
+  { y = "difference of forces", log = "xy", strip = "refused", y_range = { 1e-16, 1e-10 }, series = { difference[3], difference[2], no_screws } } } }
 print "images/stability_screws.png"
 common.verdict(math.abs(slope - 1) < 0.05 and worst < 1e-10 and wrong == 0 and #refused <= 4 and gave_up <= 2, ("the screws' regularity falls in proportion to the groove (exponent %.3f), and the forces stay "
   .. "those of the exact kernel to %.0e; at a = %.0e … %.0e dotyk refuses to place three screws, and from there on takes two and a linear condition, unique up to the sliding"):format(

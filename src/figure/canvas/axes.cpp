@@ -1,6 +1,7 @@
 #include "figure/canvas/axes.hpp"
 
 #include <numbers>
+#include <tuple>
 
 namespace dotyk::figure {
 
@@ -22,12 +23,13 @@ Axis part_of(const Axis& axis, double value) {
 
 double hair(double em) { return std::max(1.0, em / 24); }
 
-bool fit(const Ticks& ticks, const Axis& axis, double em) {
+// Labels so many em apart.
+bool fit(const Ticks& ticks, const Axis& axis, double em, double apart = 0.8) {
   double last = -1e9;
   for (const Tick& t : ticks.ticks) {
     if (t.label.empty()) continue;
     const double half = text_extent(t.label, em).x / 2;
-    if (axis.pixel(t.value) - half - last < 0.8 * em) return false;
+    if (axis.pixel(t.value) - half - last < apart * em) return false;
     last = axis.pixel(t.value) + half;
   }
   return true;
@@ -122,8 +124,9 @@ Ticks broken_ticks(const Axis& axis, double wanted) {
 
 Ticks spaced_ticks(const Axis& axis, double em) {
   Ticks out;
-  for (int n = 8; n >= 2; --n)
-    if (fit(out = few_ticks(axis.low, axis.high, n), axis, em) && out.labelled().size() > 2) return out;
+  for (const auto& [apart, least] : {std::tuple{0.8, 4U}, {0.4, 4U}, {0.8, 3U}})
+    for (int n = 8; n >= 2; --n)
+      if (fit(out = few_ticks(axis.low, axis.high, n), axis, em, apart) && out.labelled().size() >= least) return out;
   for (const double plain : {1e-3, 1.0})
     for (int n = 6; n >= 2; --n)
       if (fit(out = linear_ticks(axis.low, axis.high, n, plain), axis, em) && out.labelled().size() > 2) return out;

@@ -43,6 +43,9 @@ std::string number(double value, int digits = 3);
 // power of ten; what is nearer to zero than 0.001 is said to be so.
 std::string scaled_number(double value, int exponent, int digits = 3);
 
+// "load, at most 12.3 × 10⁶ N": with a power of ten where an axis has one.
+std::string at_most(const std::string& what, double value, const std::string& unit);
+
 inline constexpr Colour reference_grey{90, 90, 90};
 inline constexpr double small_text = 0.85;  // in em
 constexpr Colour axes_ink{30, 30, 30}, axes_grid{228, 228, 228};

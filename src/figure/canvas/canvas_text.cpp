@@ -56,17 +56,32 @@ double width_of(const std::string& text, double size, bool bold) {
   return extent.x_advance;
 }
 
-bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || (c & 0x80); }
+// Of the character that begins here: Latin and Greek letters have two bytes, signs as ‖ and − three.
+bool is_word(const std::string& text, std::size_t at) {
+  const auto c = static_cast<unsigned char>(text[at]);
+  return std::isalnum(c) || c == '_' || (c >= 0xc3 && c < 0xe0);
+}
 
-// Finds the next symbol with an index: a single letter, "_", and one to five letters or digits. Returns the places of "_" and of the end.
-std::optional<std::array<std::size_t, 2>> find_index(const std::string& text, std::size_t from) {
+std::size_t character_before(const std::string& text, std::size_t at) {
+  while (at > 0 && (static_cast<unsigned char>(text[--at]) & 0xc0) == 0x80) {}
+  return at;
+}
+
+// An index of a symbol, from "_" to `end`.
+struct Index {
+  std::size_t bar, end;
+  std::string text;
+};
+
+// Finds the next: a single letter, "_", and one to five letters or digits; or anything, "_", and what stands in braces.
+std::optional<Index> find_index(const std::string& text, std::size_t from) {
   for (std::size_t bar = text.find('_', from); bar != std::string::npos; bar = text.find('_', bar + 1)) {
-    std::size_t letter = bar;
-    while (letter > from && (static_cast<unsigned char>(text[letter - 1]) & 0xc0) == 0x80) --letter;
-    if (letter == from || !is_word(text[--letter]) || text[letter] == '_' || (letter > 0 && is_word(text[letter - 1]))) continue;
+    if (const std::size_t close = text.find('}', bar); text[bar + 1] == '{' && close != std::string::npos) return Index{bar, close + 1, text.substr(bar + 2, close - bar - 2)};
+    const std::size_t letter = character_before(text, bar);
+    if (bar == from || !is_word(text, letter) || text[letter] == '_' || (letter > 0 && is_word(text, character_before(text, letter)))) continue;
     std::size_t end = bar + 1;
     while (end < text.size() && std::isalnum(static_cast<unsigned char>(text[end]))) ++end;
-    if (end > bar + 1 && end <= bar + 6 && (end == text.size() || !is_word(text[end]))) return std::array{bar, end};
+    if (end > bar + 1 && end <= bar + 6 && (end == text.size() || !is_word(text, end))) return Index{bar, end, text.substr(bar + 1, end - bar - 1)};
   }
   return std::nullopt;
 }
@@ -84,10 +99,9 @@ std::vector<TextRun> text_runs(const std::string& text, double size, bool bold, 
   };
   std::size_t from = 0;
   while (const auto index = find_index(text, from)) {
-    const auto [bar, end] = *index;
-    add(text.substr(from, bar - from), size, 0);
-    add(text.substr(bar + 1, end - bar - 1), std::min(size, std::max(least_letters * size, least)), -kLower * size);
-    from = end;
+    add(text.substr(from, index->bar - from), size, 0);
+    add(index->text, std::min(size, std::max(least_letters * size, least)), -kLower * size);
+    from = index->end;
   }
   add(text.substr(from), size, 0);
   return runs;

@@ -30,6 +30,11 @@ std::string trimmed(std::string text) {
   return text;
 }
 
+constexpr double plain_below = 0.9e5;
+
+// Thousands and millionths, as engineers write them; 0.95e6 counts as 1e6.
+int exponent_of(double greatest) { return 3 * static_cast<int>(std::floor((std::log10(greatest) + 0.05) / 3)); }
+
 }  // namespace
 
 std::vector<double> Ticks::labelled() const {
@@ -65,6 +70,11 @@ std::string scaled_number(double value, int exponent, int digits) {
   return size < 1e3 ? number(scaled, digits) : fixed(scaled, 0);
 }
 
+std::string at_most(const std::string& what, double value, const std::string& unit) {
+  const int exponent = value >= plain_below ? exponent_of(value) : 0;
+  return what + ", at most " + scaled_number(value, exponent) + (exponent ? " × " + power_of_ten(exponent) : "") + (unit.empty() ? "" : " " + unit);
+}
+
 Ticks linear_ticks(double low, double high, int wanted, double plain) {
   Ticks out;
   if (!std::isfinite(low) || !std::isfinite(high)) return out;
@@ -79,8 +89,7 @@ Ticks linear_ticks(double low, double high, int wanted, double plain) {
   const Wide step = unit * power;
   const int step_exponent = static_cast<int>(std::floor(std::log10(step) + 1e-9));
   const double greatest = std::max(std::abs(low), std::abs(high));
-  // Thousands and millionths, as engineers write them; 0.95e6 counts as 1e6.
-  if (greatest >= 0.9e5 || greatest < plain) out.exponent = 3 * static_cast<int>(std::floor((std::log10(greatest) + 0.05) / 3));
+  if (greatest >= plain_below || greatest < plain) out.exponent = exponent_of(greatest);
   const int decimals = std::max(0, out.exponent - step_exponent);
   const Wide factor = std::pow(Wide{10}, out.exponent);
   const int parts = unit == 2 ? 4 : 5;

@@ -129,6 +129,7 @@ private:
 
 void render(const ChartColumn& given) {
   ChartColumn picture = given;
+  share_looks(picture.panels);
   const double em = letters(picture);
   const FittedText title = fitted(picture.title, 1.15 * em, picture.width - 1.2 * em, true);
   const Legend legend = common_legend(picture.panels, em, picture.width - em);

@@ -1,7 +1,9 @@
 // Charts, drawn by hand on the canvas: vtkChartXY places curves on a
 // logarithmic axis only at its second rendering, and knows neither markers
 // that stand off each other nor slope guides.
+#include <iterator>
 #include <optional>
+#include <sstream>
 
 #include "base/error.hpp"
 #include "base/text.hpp"
@@ -66,7 +68,7 @@ private:
       room_.left = std::max(margin_left(), frame_.least.left);
       room_.right = picture_.width - std::max(margin_right(), frame_.least.right);
       room_.bottom = std::max(margin_below(), frame_.least.below);
-      room_.top = picture_.height - 0.9 * em_ - (picture_.title.empty() ? 0 : 1.9 * em_ + beyond_two(title())) - legend_height - strip_height();
+      room_.top = picture_.height - 0.9 * em_ - (picture_.title.empty() ? 0 : 1.9 * em_ + title().depth()) - legend_height - strip_height();
       room_.top = std::min(room_.top, picture_.height - frame_.least.above);
       if (frame_.alone && (equal() || picture_.polar)) make_square();
     }
@@ -102,7 +104,7 @@ private:
 
   double margin_left() const {
     const Ticks& ticks = axes_.left.y_ticks;
-    const double widest = std::max(widest_label(ticks, em_), failed_.empty() ? 0 : text_extent("converged", small_text * em_).x);
+    const double widest = std::max(widest_label(ticks, em_), strip_words().empty() ? 0 : extent_of({small_text * em_, strip_words()}).x);
     return 0.6 * em_ + (picture_.y_label.empty() && !ticks.exponent ? 0 : name_depth * em_ + beyond_two(y_name(axes_.left))) + widest + 0.5 * em_;
   }
 
@@ -182,7 +184,14 @@ private:
     if (picture_.map && frame_.bar) draw_map_bar(canvas_, *picture_.map, axes_.left, room_.right, picture_.width);
   }
 
-  double strip_height() const { return failed_.empty() ? 0 : strip_gap * em_ + std::max(2.3, 0.4 + 0.8 * static_cast<double>(failed_.size())) * em_; }
+  double strip_height() const {
+    return failed_.empty() ? 0 : (strip_gap + std::max(0.3 + 1.0 * static_cast<double>(strip_words().size()), 0.4 + 0.8 * static_cast<double>(failed_.size()))) * em_;
+  }
+  // Beside the strip, one below the other.
+  std::vector<std::string> strip_words() const {
+    std::istringstream words(failed_.empty() ? "" : picture_.strip_label);
+    return {std::istream_iterator<std::string>(words), {}};
+  }
 
   // Above a break of the y axis: where there is no ordinate.
   void draw_strip() {
@@ -192,8 +201,8 @@ private:
     draw_grid(canvas_, strip);
     const Point words{room_.left - 0.4 * em_, strip.room.centre().y};
     draw_break(room_.top, foot);
-    canvas_.text(words, "not", {.size = small_text * em_, .across = Align::high});
-    canvas_.text(words, "converged", {.size = small_text * em_, .across = Align::high, .up = Align::high});
+    const FittedText label{small_text * em_, strip_words()};
+    canvas_.text(words + Point{0, label.depth() / 2}, label, {.across = Align::high, .up = Align::middle});
     for (std::size_t row = 0; row < failed_.size(); ++row) {
       const double y = foot + strip.room.height() * (static_cast<double>(row) + 0.5) / static_cast<double>(failed_.size());
       for (const double x : failed_[row].data.x)

@@ -1,5 +1,7 @@
 #include "figure/chart/chart_look.hpp"
 
+#include <numeric>
+
 #include "figure/chart/chart_map.hpp"
 
 namespace dotyk::figure {
@@ -7,6 +9,7 @@ namespace dotyk::figure {
 namespace {
 
 constexpr double legend_letters = 0.92;  // em
+constexpr int series_colours = 7;
 constexpr Colour front_yellow{255, 232, 150};
 constexpr std::array markers{Marker::disc, Marker::square, Marker::triangle, Marker::diamond,
                              Marker::down_triangle, Marker::ring, Marker::cross, Marker::plus};
@@ -16,16 +19,55 @@ constexpr std::array methods{"pdas", "newton", "projected_cg", "interior_point",
 
 bool takes_colour(const SeriesPicture& s) { return !s.reference && !s.twin && !s.front && !s.status; }
 
-// For each series that takes a colour, the place of its name among the methods. Empty if one has another name, or two have the same.
-std::vector<int> places_of_methods(const std::vector<SeriesPicture>& series) {
-  std::vector<int> places;
-  for (const SeriesPicture& s : series) {
-    if (!takes_colour(s)) continue;
-    const int place = static_cast<int>(std::find(methods.begin(), methods.end(), s.name) - methods.begin());
-    if (place == static_cast<int>(methods.size()) || std::find(places.begin(), places.end(), place) != places.end()) return {};
-    places.push_back(place);
+// For each of these names its place among the methods; their own order where one is no method.
+std::vector<int> places_of(const std::vector<std::string>& names) {
+  std::vector<int> places, order;
+  for (const std::string& name : names) {
+    places.push_back(static_cast<int>(std::ranges::find(methods, name) - methods.begin()));
+    order.push_back(static_cast<int>(order.size()));
   }
-  return places;
+  return std::ranges::count(places, static_cast<int>(methods.size())) > 0 ? order : places;
+}
+
+// The place of the same name before the i-th series on the other y axis, whose colour it has too; or none.
+std::optional<std::size_t> same_on_other_axis(const std::vector<SeriesPicture>& series, std::size_t i) {
+  for (std::size_t k = 0; k < i; ++k)
+    if (takes_colour(series[k]) && takes_colour(series[i]) && !series[i].name.empty() && series[k].name == series[i].name && series[k].right != series[i].right) return k;
+  return std::nullopt;
+}
+
+std::vector<std::string> names_with_colours(const std::vector<SeriesPicture>& series) {
+  std::vector<std::string> out;
+  for (std::size_t i = 0; i < series.size(); ++i)
+    if (takes_colour(series[i]) && !same_on_other_axis(series, i)) out.push_back(series[i].name);
+  return out;
+}
+
+bool all_different(std::vector<std::string> names) {
+  std::ranges::sort(names);
+  return std::ranges::adjacent_find(names) == names.end();
+}
+
+bool has_statuses(const ChartPicture& picture) {
+  return std::ranges::any_of(picture.series, [](const SeriesPicture& s) { return s.status.has_value(); });
+}
+
+// Of every series, counted from 0. Reference curves, statuses and twins take no place of their own, so the k-th of the others keeps its own.
+std::vector<int> places(const ChartPicture& picture) {
+  const std::vector<std::string> names = names_with_colours(picture.series);
+  std::vector<int> own(names.size()), out;
+  std::iota(own.begin(), own.end(), 0);
+  if (all_different(names) && !has_statuses(picture)) own = places_of(names);
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < picture.series.size(); ++i) {
+    const SeriesPicture& s = picture.series[i];
+    const auto same = same_on_other_axis(picture.series, i);
+    const bool takes = takes_colour(s) && !same;
+    out.push_back(takes ? own[next] : same ? out[*same] : out.empty() ? 0 : out.back());
+    if (s.place) out.back() = *s.place;
+    if (takes) ++next;
+  }
+  return out;
 }
 
 // Those of a legend.
@@ -44,25 +86,40 @@ std::string name_of(const Look& look, const ChartPicture& picture) {
 
 }  // namespace
 
-// Reference curves, statuses and twins take no colour of their own, so the k-th series keeps its own. Beside statuses, and on the
-// cells of a map, only colours that are none of theirs.
+// Beside statuses, and on the cells of a map, only colours that are none of theirs.
 std::vector<Look> looks(const ChartPicture& picture) {
-  constexpr int kColours = 7;
   constexpr std::array clear{0, 2, 6}, clear_of_cells{6, 3, 2};
   const std::vector<SeriesPicture>& series = picture.series;
-  const bool statuses = std::any_of(series.begin(), series.end(), [](const SeriesPicture& s) { return s.status.has_value(); });
-  const std::vector<int> places = statuses ? std::vector<int>{} : places_of_methods(series);
+  const bool statuses = has_statuses(picture);
+  const std::vector<int> at = places(picture);
   std::vector<Look> out;
-  int own = 0;
-  for (const SeriesPicture& s : series) {
-    if (takes_colour(s)) ++own;
-    int k = std::max(0, own - 1);
-    if (!places.empty()) k = places[k];
+  for (std::size_t i = 0; i < series.size(); ++i) {
+    const SeriesPicture& s = series[i];
+    const int k = at[i];
     const Colour colour = s.front ? front_yellow : s.reference ? reference_grey : s.status ? status_colour(*s.status) : series_colour(statuses ? clear[k % clear.size()] : picture.map ? clear_of_cells[k % clear.size()] : k);
-    out.push_back({s, colour, s.status ? status_marker(*s.status) : markers[k % markers.size()], s.reference || s.twin || (!statuses && k >= kColours)});
+    out.push_back({s, colour, s.status ? status_marker(*s.status) : markers[k % markers.size()], s.reference || s.twin || same_on_other_axis(series, i) || (!statuses && k >= series_colours)});
   }
   return out;
 }
+
+void share_looks(std::vector<ChartPicture>& panels) {
+  std::vector<std::string> all;
+  for (const ChartPicture& panel : panels) {
+    const std::vector<std::string> names = names_with_colours(panel.series);
+    if (!all_different(names) || has_statuses(panel) || panel.map) return;
+    for (const std::string& name : names) {
+      if (name.empty()) return;
+      if (std::ranges::find(all, name) == all.end()) all.push_back(name);
+    }
+  }
+  if (std::ssize(all) > series_colours) return;
+  const std::vector<int> place = places_of(all);
+  for (ChartPicture& panel : panels)
+    for (SeriesPicture& s : panel.series)
+      if (takes_colour(s)) s.place = place[static_cast<std::size_t>(std::ranges::find(all, s.name) - all.begin())];
+}
+
+bool has_line(const SeriesPicture& s) { return !s.front && !s.y.empty() && (s.style != SeriesStyle::points || s.reference); }
 
 bool names_beside(const ChartPicture& picture) {
   return std::ranges::count_if(picture.series, [](const SeriesPicture& s) { return s.reference && !s.name.empty(); }) > 1;
@@ -70,9 +127,11 @@ bool names_beside(const ChartPicture& picture) {
 
 Colour right_colour(const ChartPicture& picture) {
   std::vector<Colour> own;
-  for (const Look& look : looks(picture))
+  const std::vector<Look> all = looks(picture);
+  for (const Look& look : all)
     if (look.data.right && !look.data.reference) own.push_back(look.colour);
-  return own.size() == 1 ? own.front() : axes_ink;
+  const bool tells = own.size() == 1 && std::ranges::none_of(all, [&](const Look& look) { return !look.data.right && look.colour == own.front(); });
+  return tells ? own.front() : axes_ink;
 }
 
 void Pen::sample(Canvas& canvas, const Look& look, const Box& b) const {
@@ -81,7 +140,7 @@ void Pen::sample(Canvas& canvas, const Look& look, const Box& b) const {
   const Point middle = b.centre();
   if (!s.low.empty() && !s.bars) canvas.box({b.left, middle.y - 0.3 * em, b.right, middle.y + 0.3 * em}, look.colour, 0.2);
   if (!s.low.empty() && s.bars) whisker(canvas, {middle - Point{0, 0.5 * em}, middle + Point{0, 0.5 * em}}, look);
-  if (s.style != SeriesStyle::points || s.reference) stroke(canvas, b.midline(), look);
+  if (has_line(s)) stroke(canvas, b.midline(), look);
   if (s.style != SeriesStyle::line && !s.reference) mark(canvas, look, middle);
 }
 
@@ -113,7 +172,7 @@ bool look_alike(const Look& a, const Look& b) {
 LegendEntry entry(const std::string& name, const Look& look, double em) {
   constexpr double kMarker = 0.8, kLine = 2;  // em
   const SeriesPicture& s = look.data;
-  const bool marker = s.style == SeriesStyle::points && !s.reference && !s.front && (s.low.empty() || s.bars);
+  const bool marker = !has_line(s) && !s.front && (s.low.empty() || s.bars);
   return {name, [pen = Pen{em}, look](Canvas& canvas, const Box& box) { pen.sample(canvas, look, box); }, marker ? kMarker : kLine};
 }
 

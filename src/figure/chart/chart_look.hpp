@@ -17,11 +17,16 @@ struct Look {
 
 // Of every series, in their order.
 std::vector<Look> looks(const ChartPicture& picture);
+// Gives a name one colour and marker in all panels, and different names different ones, where there are colours for all.
+void share_looks(std::vector<ChartPicture>& panels);
+
+// Of a line from point to point; a front is none.
+bool has_line(const SeriesPicture& s);
 
 // Have reference curves their names beside them, not in the legend? Where several have a name: in a legend they look alike.
 bool names_beside(const ChartPicture& picture);
 
-// The colour of the right axis: that of its only series, of several the one of all axes.
+// The colour of the right axis: that of its only series, if no series on the left has it, or else that of all axes.
 Colour right_colour(const ChartPicture& picture);
 
 // Draws parts of series; lines and markers are sized by the height of letters.

@@ -9,7 +9,6 @@ namespace dotyk::figure {
 
 namespace {
 
-bool has_line(const SeriesPicture& s) { return !s.front && (s.style != SeriesStyle::points || s.reference); }
 bool has_markers(const SeriesPicture& s) { return s.style != SeriesStyle::line && !s.reference && !s.front; }
 
 bool dense(const std::vector<Point>& curve, double spacing) {
@@ -54,9 +53,28 @@ void stroke_within(Canvas& canvas, const Box& room, const std::vector<Point>& cu
 
 }  // namespace
 
+// The axes of a series, moved aside in pixels where other series have whiskers at the same x: they stand side by side.
+Axes SeriesDrawing::axes_of(const SeriesPicture& s) const {
+  constexpr double kStep = 0.55, kShare = 0.6;  // em; of the way to the next x
+  Axes axes = axes_.of(s);
+  if (!s.bars || axes.pole) return axes;
+  double before = 0, all = 0, apart = INFINITY;
+  for (const Look& look : looks_) {
+    const SeriesPicture& other = look.data;
+    if (!other.bars || std::ranges::none_of(other.x, [&](double x) { return std::ranges::find(s.x, x) != s.x.end(); })) continue;
+    if (&other == &s) before = all;
+    ++all;
+  }
+  for (std::size_t i = 1; i < s.x.size(); ++i)
+    if (const double way = std::abs(axes.x.pixel(s.x[i]) - axes.x.pixel(s.x[i - 1])); way > 0) apart = std::min(apart, way);
+  const double aside = (before - (all - 1) / 2) * std::min(kStep * pen_.em, kShare * apart / all);
+  axes.x.from += aside, axes.x.to += aside;
+  return axes;
+}
+
 // At every point that the axes show: across from x_low to x_high, upright from low to high.
 std::vector<std::array<Point, 2>> SeriesDrawing::whiskers(const SeriesPicture& s) const {
-  const Axes& axes = axes_.of(s);
+  const Axes axes = axes_of(s);
   std::vector<std::array<Point, 2>> out;
   const auto add = [&](Point low, Point high) {
     for (const Point& p : {low, high})
@@ -71,7 +89,7 @@ std::vector<std::array<Point, 2>> SeriesDrawing::whiskers(const SeriesPicture& s
 void SeriesDrawing::occupy(Occupied& occupied) const {
   for (const Look& look : looks_) {
     const SeriesPicture& s = look.data;
-    const Axes& axes = axes_.of(s);
+    const Axes axes = axes_of(s);
     for (const auto& [from, to] : whiskers(s)) occupied.add({from, to}, axes.room);
     for (const auto* values : {&s.y, &s.low, &s.high})
       for (const auto& curve : curves(s.x, *values, axes)) occupied.add(curve, axes.room);
@@ -80,7 +98,7 @@ void SeriesDrawing::occupy(Occupied& occupied) const {
 
 void SeriesDrawing::draw_front(const Look& look) {
   if (!look.data.front) return;
-  for (const auto& curve : curves(look.data.x, look.data.y, axes_.of(look.data))) {
+  for (const auto& curve : curves(look.data.x, look.data.y, axes_of(look.data))) {
     stroke_within(canvas_, axes_.left.room, curve, pen_.front_width(), look.colour);
     for (const Point& end : {curve.front(), curve.back()}) canvas_.disc(end, pen_.front_width() / 2, look.colour);
   }
@@ -88,7 +106,7 @@ void SeriesDrawing::draw_front(const Look& look) {
 
 void SeriesDrawing::draw_band(const Look& look) {
   const SeriesPicture& s = look.data;
-  const Axes& axes = axes_.of(s);
+  const Axes axes = axes_of(s);
   if (s.low.empty() || s.bars) return;
   const double least = std::max(axes.y.low * 1e-6, std::numeric_limits<double>::denorm_min());
   const auto at = [&](std::size_t i, double v) { return axes.at(s.x[i], axes.y.log ? std::max(v, least) : v); };
@@ -111,7 +129,7 @@ void SeriesDrawing::draw_lines() {
   std::vector<std::size_t> of;       // whose they are
   for (std::size_t k = 0; k < looks_.size(); ++k) {
     const SeriesPicture& s = looks_[k].data;
-    lines.push_back(has_line(s) ? curves(s.x, s.y, axes_.of(s)) : std::vector<std::vector<Point>>());
+    lines.push_back(has_line(s) ? curves(s.x, s.y, axes_of(s)) : std::vector<std::vector<Point>>());
     if (looks_[k].dashed || lines[k].empty()) continue;
     of.push_back(k);
     solid.emplace_back(room, near);
@@ -138,7 +156,7 @@ void SeriesDrawing::draw_curves() {
 std::vector<Point> SeriesDrawing::marked(const SeriesPicture& s) const {
   std::vector<Point> out;
   if (!has_markers(s)) return out;
-  const Axes& axes = axes_.of(s);
+  const Axes axes = axes_of(s);
   for (const std::vector<Point>& run : runs(s.x, s.y, axes)) {
     std::vector<Point> curve;
     for (const Point& p : run)

@@ -20,6 +20,7 @@ private:
   void draw_front(const Look& look);
   void draw_band(const Look& look);
   void draw_lines();
+  Axes axes_of(const SeriesPicture& s) const;
   std::vector<std::array<Point, 2>> whiskers(const SeriesPicture& s) const;
   std::vector<Point> marked(const SeriesPicture& s) const;
 

@@ -13,6 +13,7 @@ void check_texts(const ChartPicture& p) {
   check_text("'x'", p.x_label);
   check_text("'y'", p.y_label);
   check_text("'y_right'", p.y_right_label);
+  check_text("'strip'", p.strip_label);
   for (std::size_t k = 0; k < p.series.size(); ++k) check_text(text("'name' of series ", k + 1), p.series[k].name);
   for (std::size_t k = 0; k < p.categories.size(); ++k) check_text(text("category ", k + 1), p.categories[k]);
   for (std::size_t k = 0; k < p.notes.size(); ++k) check_text(text("'text' of note ", k + 1), p.notes[k].text);

@@ -210,12 +210,13 @@ struct SeriesPicture {
   bool reference = false;                   // a reference curve: dashed, dark grey, no markers
   std::vector<double> x_low, x_high;        // n each or empty: a spread about x, drawn as whiskers
   // Markers pale and crossed out: runs that failed. Where these have no ordinate y is empty: they stand in a strip above
-  // the plot, beyond a break of the y axis, "not converged"; each such series in a row of its own, the first lowest.
+  // the plot, beyond a break of the y axis; each such series in a row of its own, the first lowest.
   bool crossed = false;
   bool front = false;                       // a broad pale line beneath everything, no markers
   bool twin = false;                        // dashed, with colour and marker of the series before it
   std::optional<Status> status;             // in the colour and with the marker that contact nodes of this status have
   bool right = false;                       // on the y axis on the right
+  std::optional<int> place;                 // of its colour and marker, from 0; default: in the order of the series, or of known methods
 };
 
 // A guide of the given slope. With both axes logarithmic y ~ x^slope;
@@ -247,6 +248,7 @@ struct ChartPicture : Sheet {
   std::string y_right_label;                // of the series that are on the right; that axis is logarithmic where the left one is
   bool log_x = false, log_y = false;
   std::vector<SeriesPicture> series;        // of several reference curves with names each has its name beside it
+  std::string strip_label = "not converged";
   std::optional<ChartMap> map;
   std::vector<ChartNote> notes;
   std::vector<std::string> categories;      // names of x = 1, 2, …

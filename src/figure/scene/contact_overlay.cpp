@@ -158,13 +158,6 @@ LegendEntry status_entry(const Stage& stage, Status status) {
           }};
 }
 
-// From 10⁴ on with a power of ten whose exponent is a multiple of 3, as on colour bars.
-std::string at_most(const char* what, double value, const std::string& unit) {
-  const int exponent = value >= 1e4 ? 3 * static_cast<int>(std::floor(std::log10(value) / 3)) : 0;
-  const std::string factor = exponent ? " × " + power_of_ten(exponent) : "";
-  return std::string(what) + ", at most " + scaled_number(value, exponent) + factor + (unit.empty() ? "" : " " + unit);
-}
-
 // As a strip with an ordinate at each node, as arrows, or as dots on a map. In the plane the greatest is written beside it.
 LegendEntry pressure_entry(const Stage& stage) {
   const bool map = stage.map();

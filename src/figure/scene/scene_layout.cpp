@@ -128,7 +128,7 @@ std::array<Ticks, 2> frame_ticks(const Stage& stage) {
   const double s = stage.view.scale, em = stage.em;
   const Point o = stage.view.origin;
   const Box w = stage.window.value_or(Box{(f.left - o.x) / s, (f.bottom - o.y) / s, (f.right - o.x) / s, (f.top - o.y) / s});
-  return {spaced_ticks({false, w.left, w.right, f.left, f.right}, em), few_ticks(w.bottom, w.top, std::clamp(4.0, f.height() / (2.6 * em), f.height() / (2 * em)))};
+  return {spaced_ticks({false, w.left, w.right, f.left, f.right}, legend_size * em), few_ticks(w.bottom, w.top, std::clamp(4.0, f.height() / (2.6 * em), f.height() / (2 * em)))};
 }
 
 // "x", "arc [mm]", "y [10⁻³ m]".

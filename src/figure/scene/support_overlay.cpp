@@ -170,8 +170,7 @@ void load_legend(const Stage& stage, std::vector<LegendEntry>& out) {
   const auto& loads = stage.picture.loads;
   const bool seen = std::any_of(loads.begin(), loads.end(), [&](const LoadArrow& load) { return stage.shows(stage.at(load)) && stage.stays(load); });
   if (!seen || !(stage.greatest_load > 0)) return;
-  const std::string& unit = stage.picture.load_unit;
-  out.push_back({"load, at most " + number(stage.greatest_load) + (unit.empty() ? "" : " " + unit), [em = stage.em](Canvas& c, const Box& b) {
+  out.push_back({at_most("load", stage.greatest_load, stage.picture.load_unit), [em = stage.em](Canvas& c, const Box& b) {
                    c.arrow(b.midline()[0], b.midline()[1], std::max(1.5, em / 11), 0.6 * em, load_colour);
                  }});
 }

@@ -22,7 +22,7 @@ std::vector<Key> series_keys() {
       key::boolean("reference", "a reference curve: dashed, without markers; of several the names stand beside them, not in the legend").into(&S::reference),
       key::choice<bool>("axis", {{"left", false}, {"right", true}}, "which y axis it has; on the right an arrow in the legend says so, or the colour of an axis that has no other series").into(&S::right),
       key::boolean("crossed", "markers pale and crossed out, for runs that failed; without y in a strip above "
-                    "the plot, \"not converged\", a row for each such series").into(&S::crossed),
+                    "the plot, a row for each such series").into(&S::crossed),
       key::boolean("front", "a broad pale line beneath all others, for what is best").into(&S::front),
       key::boolean("twin", "dashed, with the colour and marker of the series before it").into(&S::twin),
       key::choice<Status>("status", {{"open", Status::open}, {"closed", Status::closed}, {"stick", Status::stick}, {"slip", Status::slip}},
@@ -50,6 +50,7 @@ std::vector<Key> chart_keys() {
           key::choice("log", {"", "x", "y", "xy"}, "which axes are logarithmic; values of zero and below "
                       "are left out, and counted on standard error").fallback(""),
           key::list("series", key::table("", series_keys(), "one curve"), "the curves").some(),
+          key::string("strip", "what it means to stand in the strip of crossed points without y").fallback("not converged").into(&ChartPicture::strip_label),
           map_key(),
           key::list("categories", key::string("", ""), "names of x = 1, 2, … in place of numbers").some().into(&ChartPicture::categories),
           key::vector("x_range", "ends of the x axis").count(2).otherwise("the data with a margin"),
@@ -63,7 +64,7 @@ std::vector<Key> chart_keys() {
 SeriesPicture series_of(const Arguments& given) {
   const SeriesPicture series = given.filled<SeriesPicture>();
   if (!given.has("y") && !series.crossed) throw InputError(text("series '", series.name, "': missing key 'y'; only points that are crossed may have none"));
-  if (given.has("y") && series.x.size() != series.y.size())
+  if (given.has("y") && series.x.size() != series.y.size() && !(series.crossed && series.y.empty()))
     throw InputError(text("series '", series.name, "' has ", series.x.size(), " x and ", series.y.size(), " y"));
   return series;
 }
