@@ -23,5 +23,5 @@ local p0 = 3 * force / (2 * math.pi * a^2)
 print(("force %.4f; contact radius %.4f by area, Hertz %.4f; peak pressure %.2f, Hertz %.2f (%.1f %% off)"):format(
   force, math.sqrt(4 * c.area / math.pi), a, c.max_pressure, p0, 100 * (c.max_pressure / p0 - 1)))
 
-s:render{ file = "images/ball.png", field = "von_mises", deform = 1, view = {-1, -1.4, 0.9} }
+s:render{ file = "images/ball.png", field = "von_mises", units = { length = "mm", stress = "MPa" }, deform = 1, view = {-1, -1.4, 0.9} }
 print "images/ball.png"

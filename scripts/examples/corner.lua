@@ -42,5 +42,5 @@ print(("left flank carries %s, right flank %s"):format((function()
   return ("%.4f"):format(left), ("%.4f"):format(right)
 end)()))
 
-s:render{ file = "images/corner.png", field = "von_mises" }
+s:render{ file = "images/corner.png", field = "von_mises", units = { length = "mm", stress = "MPa" } }
 print "images/corner.png"

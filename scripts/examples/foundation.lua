@@ -83,10 +83,10 @@ for number, kind in ipairs(kinds) do
   end
   if number == 2 then
     assert(math.abs(touches - contact) < 0.05 * contact + half / cells)
-    s:render{ file = "images/foundation_strip.png", field = "xx", deform = 5, supports = true, loads = true,
+    s:render{ file = "images/foundation_strip.png", field = "xx", units = { length = "mm", stress = "MPa", load = "MPa" }, deform = 5, supports = true, loads = true,
               size = { 1200, 560 }, title = "Half a strip on springs without tension" }
   end
 end
-dotyk.chart{ file = "images/foundation.png", title = "A strip pressed in its middle", x = "distance from the middle",
+dotyk.chart{ file = "images/foundation.png", title = "A strip pressed in its middle", x = "distance from the middle [mm]",
   y = "pressure / peak of beam theory", series = series }
 print "images/foundation.png, images/foundation_strip.png"

@@ -66,5 +66,5 @@ end
 
 -- 6. The figure.
 local shown = dotyk.solve((scenes.blocks(math.min(48, finest), dotyk.friction.coulomb(0.3))))
-shown:render{ file = "images/friction.png", field = "xy", supports = true, loads = true }
+shown:render{ file = "images/friction.png", field = "xy", units = { length = "mm", stress = "MPa", load = "MPa" }, supports = true, loads = true }
 print "images/friction.png"

@@ -57,5 +57,5 @@ print(s)
 
 -- 4. The figure, on a mesh whose cells can be seen.
 local shown = dotyk.solve((plane(math.min(64, finest))))
-shown:render{ file = "images/punch.png", field = "von_mises", supports = true, isolines = true }
+shown:render{ file = "images/punch.png", field = "von_mises", units = { length = "mm", stress = "MPa" }, supports = true, isolines = true }
 print "images/punch.png"

@@ -136,7 +136,7 @@ end
 for _, s in ipairs(all) do
   local c = s:contact(contact)
   local name = c.slip + c.stick == 0 and "open" or c.stick > 0 and "stick" or "slip"
-  s:render{ file = "images/several_" .. name .. ".png", field = "displacement", deform = 10, supports = true, zoom = name ~= "open" and { -0.3, -0.5, 1.3, 0.5 } or nil }
+  s:render{ file = "images/several_" .. name .. ".png", field = "displacement", units = { length = "mm", stress = "MPa" }, deform = 10, supports = true, zoom = name ~= "open" and { -0.3, -0.5, 1.3, 0.5 } or nil }
 end
 
 -- 7. A continuum. The triangle O (0,0), B (1,0), P (1/5, 4/15) on a rigid floor; O and P are held (P displaced), B is loaded and free: at mu = 3 its slip

@@ -42,7 +42,7 @@ for k = 1, count do
   report("block " .. k .. ", y", below[2] - above[2] - own, own * count + top)
   report("block " .. k .. ", moment", turned, own * count + top)
 end
-s:render{ file = "images/stack.png", field = "yy", loads = true, pressure = "none" }
+s:render{ file = "images/stack.png", field = "yy", units = { length = "m", stress = "kPa", load = "kPa" }, loads = true, pressure = "none" }
 
 -- 2. A ball in a rigid bowl.
 local function make_ball()

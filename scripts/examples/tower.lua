@@ -44,6 +44,6 @@ for _, part in ipairs{ 0.2, 0.5, 0.8, 0.95, 0.99 } do
     100 * part, c.open, #c.nodes, c.force[1], c.force[2], s.converged and "converged" or s.reason, s.iterations))
 end
 local scene = tower(0.4, 1, 20)
-dotyk.solve(scene):render{ file = "images/tower.png", field = "yy", loads = true, zoom = { -0.15, -0.4, 1.25, 0.6 } }
+dotyk.solve(scene):render{ file = "images/tower.png", field = "yy", units = { length = "m", stress = "kPa", load = "kPa" }, loads = true, zoom = { -0.15, -0.4, 1.25, 0.6 } }
 print "images/tower.png"
 if worst > 1e-6 then error "the limit load is wrong" end

@@ -33,5 +33,5 @@ local sideways = fx + s:reaction(lower:part"left") - c.force[1]
 print(("contact carries %.10f, the support below %.10f; sideways all forces on the lower block add up to %.1e"):format(
   c.force[2], fy, sideways))
 
-s:render{ file = "images/two_blocks.png", field = "yy", deform = 1, supports = true, loads = true }
+s:render{ file = "images/two_blocks.png", field = "yy", units = { length = "mm", stress = "MPa", load = "MPa" }, deform = 1, supports = true, loads = true }
 print "images/two_blocks.png"

@@ -44,6 +44,12 @@ check.that(twin:text "3000".x > twin:text "seconds".x + 500 and twin:text "held"
 local both <const> = drawn{ y_right = "memory", series = { curve, { name = "b", x = { 1 }, y = { 1000 }, axis = "right" }, { name = "c", x = { 1 }, y = { 4000 }, axis = "right" } } }
 check.equal(both:text "memory".fill, both:text "3000".fill)
 check.that(both:text "b →" and both:text "c →" and both:text "memory".fill ~= "#d55e00")
+-- One name on both axes has one colour, which then tells no axis.
+local same <const> = drawn{ y = "left", y_right = "right", series = { { name = "a", x = { 1, 2 }, y = { 1, 2 }, style = "line" }, { name = "a", x = { 1, 2 }, y = { 7, 5 }, axis = "right", style = "line" } } }
+check.that(same:text "a →" and same:text "right".fill == same:text "left".fill)
+local stroked <const> = {}
+for _, line in ipairs(same.lines) do if line.stroke == "#0072b2" then stroked[#stroked + 1] = line.dashed end end
+check.equal(stroked, { false, true, false, true }, "full, dashed, and so in the legend")
 wrong({ series = { { x = { 1 }, y = { 1 }, axis = "right" } } }, "one must be on the left")
 wrong({ y_right = "memory", series = { curve } }, "'y_right' without a series")
 wrong({ series = { { x = { 1 }, y = { 1 }, axis = "up" } } }, '"left" or "right"')

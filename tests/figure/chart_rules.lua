@@ -96,6 +96,19 @@ for _, mark in ipairs(lines_of(bars, blue)) do
   if mark.left == mark.right then upright = upright + 1 elseif mark.top == mark.bottom then caps = caps + 1 end
 end
 check.equal({ upright, caps }, { 3, 6 }) -- with the legend's
+-- Those of several series at one x stand side by side, so that none hides another.
+local beside <const> = drawn{ categories = { "first", "second" }, series = { spread, { name = "b", x = { 1, 2 }, y = { 2, 3 }, low = { 1, 2 }, high = { 4, 5 }, style = "points", bars = true } } }
+local function uprights(colour)
+  local out <const> = {}
+  for _, mark in ipairs(lines_of(beside, colour)) do if mark.left == mark.right then out[#out + 1] = mark.left end end
+  return out
+end
+local first <const>, second <const> = uprights(blue), uprights(orange)
+for k = 1, 2 do check.that(second[k] - first[k] > 10 and second[k] - first[k] < 40, "whiskers side by side") end
+-- Failures without an ordinate stand in a strip that says what they are; where there are none, its name alone is in the legend.
+local strip <const> = drawn{ strip = "out of memory", series = { curve, { name = "factors", x = { 2, 3 }, crossed = true } } }
+for _, word in ipairs{ "out", "of", "memory" } do check.that(strip:text(word) and strip:text(word).y < frame_of(strip).top, word) end
+check.that(drawn{ series = { curve, { name = "none", x = {}, y = {}, crossed = true } } }:text "none")
 refused(function() dotyk.chart{ file = "rules.svg", series = { { name = "a", x = { 1 }, y = { 1 }, bars = true } } } end, 'series "a": \'bars\' without \'low\' and \'high\'')
 
 -- 5. Notes: near their points, off the curves, with a line from the point.
@@ -164,9 +177,13 @@ local ab <const> = { series = { line("a", same), line("b", leaves) } }
 local all <const> = drawn{ size = { 2000, 800 }, columns = 3, panels = { ab, ab, { series = { points("c", same), points("d", leaves) } } } }
 for _, name in ipairs{ "a", "b", "c", "d" } do check.equal(count(all, name), 1, name) end
 check.that(math.abs(all:text "a".y - all:text "d".y) < 0.1, "in one row")
-local some <const> = drawn{ size = { 2000, 1200 }, columns = 2, panels = { ab, ab, ab, { series = { line("c", same) } } } }
-check.equal({ count(some, "a"), count(some, "b"), count(some, "c") }, { 1, 1, 1 })
-check.that(some:text "c".x > 1000 and some:text "c".y > 600 and some:text "a".x < 1000, "each in its own panel")
+local some <const> = drawn{ size = { 2000, 1200 }, columns = 2, panels = { ab, ab, ab, { series = { points("a", same) } } } }
+check.equal({ count(some, "a"), count(some, "b") }, { 2, 1 })
+check.that(some:text("a", 2).x > 1000 and some:text("a", 2).y > 600 and some:text "a".x < 1000, "each in its own panel")
+-- A name has one colour in all panels, and no other has that.
+local apart <const> = drawn{ panels = { ab, { series = { line("c", same), line("a", leaves) } } } }
+for name, colour in pairs{ blue = blue, orange = orange, green = "#009e73" } do check.that(#lines_of(apart, colour) >= 2, name) end
+check.equal(#lines_of(apart, "#cc79a7"), 0, "no fourth colour")
 
 -- 8. Decades all have labels where there is room, and within less than a decade labels are even.
 local logs <const> = drawn{ size = { 1000, 450 }, log = "xy", series = { { x = { 0.08, 0.1, 0.2, 0.25 }, y = { 1, 10, 1e4, 1e5 } } } }

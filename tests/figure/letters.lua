@@ -65,6 +65,9 @@ local _, _, texts <const> = letters "letters.svg"
 check.that(texts:find("λ\nmax\n &lt; μ &amp; W\nnt", 1, true), texts)
 check.that(texts:find("uzawa_pdas", 1, true))
 
+dotyk.chart{ file = "letters.svg", x = "‖u − u_h‖_{L²}, σ_{n,max}", series = { { name = "x", x = { 1, 2 }, y = { 1, 2 } } } }
+check.that(select(3, letters "letters.svg"):find("‖u − u\nh\n‖\nL²\n, σ\nn,max", 1, true))
+
 -- Beside 'size' the width says how large letters are.
 dotyk.chart{ file = "letters.svg", size = { 1000, 500 }, width = 120, series = { { x = { 1, 2 }, y = { 1, 2 } } } }
 check.that(content "letters.svg":find('viewBox="0 0 1000 500"', 1, true))

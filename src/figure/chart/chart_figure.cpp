@@ -86,8 +86,11 @@ private:
     Ticks out;
     for (const std::string& name : picture_.categories) out.ticks.push_back({static_cast<double>(out.ticks.size() + 1), name});
     if (!out.ticks.empty() || picture_.polar) return out;
-    if (picture_.map && !x.log && !map_ticks(picture_.map->x).ticks.empty()) return map_ticks(picture_.map->x);
     const double width = room_.width() > 1 ? room_.width() : 27 * em_;
+    if (picture_.map && !x.log) {
+      const double widest = widest_label(map_ticks(picture_.map->x, INFINITY), em_);
+      if (const Ticks whole = map_ticks(picture_.map->x, width / (widest + 0.5 * em_)); !whole.ticks.empty()) return whole;
+    }
     // Within less than a decade steps are even as on a linear axis.
     const bool decades = x.log && std::log10(x.high) - std::log10(x.low) > 0.7;
     return decades ? log_ticks(x.low, x.high, static_cast<int>(std::max(3.0, width / (3.6 * em_))) + 1) : spaced_ticks({x.log, x.low, x.high, 0, width}, em_);
@@ -96,7 +99,8 @@ private:
   Ticks y_ticks(const Axis& y) const {
     const double labels = std::max(3.0, room_.height() > 1 ? room_.height() / (2.6 * em_) : 6);
     if (picture_.polar) return {};
-    if (picture_.map && !y.log && !map_ticks(picture_.map->y).ticks.empty()) return map_ticks(picture_.map->y);
+    if (picture_.map && !y.log)
+      if (const Ticks whole = map_ticks(picture_.map->y, room_.height() > 1 ? room_.height() / em_ : INFINITY); !whole.ticks.empty()) return whole;
     if (y.left_out) return broken_ticks(y, std::min(8.0, labels));
     constexpr double kLine = 1.35;  // em from a power of ten to the next
     return y.log ? log_ticks(y.low, y.high, room_.height() > 1 ? static_cast<int>(std::lround(room_.height() / (kLine * em_))) : 6) : few_ticks(y.low, y.high, std::min(8.0, labels));

@@ -84,11 +84,13 @@ std::vector<double> polar_borders(const std::vector<double>& at, bool angles) {
   return out;
 }
 
-Ticks map_ticks(const std::vector<double>& at) {
+Ticks map_ticks(const std::vector<double>& at, double most) {
   Ticks out;
+  int every = 1;
+  for (int k = 0; static_cast<double>(at.size()) / every > std::max(1.0, most); ++k) every = std::array{2, 5, 10}[k % 3] * static_cast<int>(std::pow(10, k / 3));
   for (std::size_t i = 0; i < at.size(); ++i) {
     if (at[i] != std::floor(at[i]) || (i > 0 && at[i] != at[i - 1] + 1)) return {};
-    out.ticks.push_back({at[i], number(at[i])});
+    out.ticks.push_back({at[i], std::fmod(at[i], every) == 0 ? number(at[i]) : ""});
   }
   return out;
 }

@@ -12,8 +12,8 @@ std::vector<double> cell_borders(const std::vector<double>& at, bool log);
 // at 90°. Angles all around have whole cells, which meet.
 std::vector<double> polar_borders(const std::vector<double>& at, bool angles);
 
-// Ticks at the values, where they are whole numbers one after the other; else none.
-Ticks map_ticks(const std::vector<double>& at);
+// Ticks at the values, where they are whole numbers one after the other, with evenly spaced labels, `most` at most; else none.
+Ticks map_ticks(const std::vector<double>& at, double most);
 
 void draw_map(Canvas& canvas, const ChartMap& map, const Axes& axes);
 std::vector<LegendEntry> map_legend(const ChartMap& map);
