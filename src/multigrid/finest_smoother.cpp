@@ -22,7 +22,7 @@ void factor_on_each(KSP ksp, Mat matrix, MatFactorShiftType shift, MatSolverType
 }
 
 bool FinestSmoother::set(Mat matrix, const std::vector<int>& shared) {
-  matrix_ = matrix, shared_ = shared, omega_ = damping(matrix);
+  matrix_ = matrix, shared_ = shared, omega_ = damping(matrix, shared);
   const Ranks ranks = ranks_of(matrix);
   any_ = !ranks.all(shared_.empty());
   if (!any_) return true;
