@@ -41,7 +41,7 @@ local slim <const> = drawn{ x_range = { 0, 1 }, series = { { x = { 0, 0.9 }, y =
   { name = ("long name "):rep(4), x = { 0.05, 0.05 }, y = { 0, 1 }, reference = true } } }
 check.that(slim:text "a")
 
--- 2. Where a curve lies beneath a later one it is broader, along that stretch alone; beneath two, broader still.
+-- 2. Where a curve lies beneath a later one it shows as dashes on it, along that stretch alone; beneath two, farther apart.
 local x <const>, same <const>, leaves <const> = { 1, 2, 3, 4, 5 }, { 1, 2, 3, 4, 5 }, { 1, 2, 3, 1, 0 }
 local function line(name, y) return { name = name, x = x, y = y, style = "line" } end
 local alone <const> = lines_of(drawn{ series = { line("a", same), line("b", { 5, 4, 3, 2, 1 }) } }, blue)
@@ -49,12 +49,12 @@ check.equal(#alone, 2, "a crossing hides nothing: the curve, its sample")
 local hidden <const> = drawn{ series = { line("a", same), line("b", leaves) } }
 local under <const>, over <const> = lines_of(hidden, blue), lines_of(hidden, orange)
 check.equal(#under, 3, "the curve, the part beneath, the sample")
-local plain, broad = under[1], under[2]
-check.that(broad.width > 2 * plain.width and math.abs(over[1].width - plain.width) < 0.01)
-check.that(math.abs(broad.left - plain.left) < 5 and broad.right < plain.left + 0.6 * (plain.right - plain.left), "until they part")
+local plain <const>, dashes <const> = under[1], under[2]
+check.that(dashes.dashed and not plain.dashed and dashes.width == plain.width and over[1].width == plain.width)
+check.that(math.abs(dashes.left - plain.left) < 5 and dashes.right < plain.left + 0.6 * (plain.right - plain.left), "until they part")
 local three <const> = lines_of(drawn{ series = { line("a", same), line("b", same), line("c", same) } }, blue)
-check.that(three[2].width > broad.width)
--- At the edge of the plot neither a line nor what is broader of it reaches beyond the frame.
+check.that(three[2].dashed and three[2].gap > 2 * dashes.gap, "beneath two")
+-- At the edge of the plot no line reaches beyond the frame, and neither does what is seen of it on others.
 local zero <const> = drawn{ y_range = { 0, 1 }, series = { line("a", { 0, 0, 0, 1, 2 }), line("b", { 0, 0, 0, 0, 1 }), line("c", { 0, 0, 0, 0, 0 }) } }
 local function frame_of(it) -- the last closed line that is drawn in the colour of axes
   for k = #it.lines, 1, -1 do if it.lines[k].stroke == "#1e1e1e" and #it.lines[k].points == 4 then return it.lines[k] end end
@@ -67,7 +67,7 @@ for _, colour in ipairs{ blue, orange, "#009e73" } do
     broadest = math.max(broadest, mark.bottom - mark.top)
   end
   check.that(broadest > 1, "drawn")
-  for _, mark in ipairs(lines_of(zero, colour)) do check.that(mark.bottom + mark.width / 2 <= frame.bottom + 0.1, "inside") end
+  for _, mark in ipairs(lines_of(zero, colour)) do check.that(mark.bottom + (mark.dashed and 0 or mark.width / 2) <= frame.bottom + 0.1, "inside") end
 end
 -- Markers of one place are nested, those above smaller than alone, and none much larger.
 local function spots(name, at) return { name = name, x = at, y = at, style = "points" } end

@@ -31,7 +31,7 @@ local plate <const> = dotyk.plate{ mesh = dotyk.mesh.rectangle{ from = { 0, 0 },
 local bent <const> = dotyk.solve(plate)
 
 local kinds <const> = {
-  chart = function(o) o.title, o.x, o.y, o.series, o.slopes = long, long, long, { curve, { name = long, x = { 1, 2 }, y = { 1, 2 } } }, { 1 } return dotyk.chart(o) end,
+  chart = function(o) o.title, o.x, o.y, o.series, o.slopes = long, long, long, { curve, { name = "a name of many letters", x = { 1, 2 }, y = { 1, 2 } } }, { 1 } return dotyk.chart(o) end,
   logarithmic = function(o) o.x, o.y, o.log, o.series = "h", "‖e‖", "xy", { curve } return dotyk.chart(o) end,
   panels = function(o) o.columns, o.panels = o.width > 100 and 3 or 2, { panel, panel, panel, panel } return dotyk.chart(o) end,
   scene = function(o) o.title, o.contact, o.loads, o.supports, o.field, o.unit = long, true, true, true, "von_mises", "MPa" return block:render(o) end,
@@ -67,6 +67,9 @@ check.that(texts:find("uzawa_pdas", 1, true))
 
 dotyk.chart{ file = "letters.svg", x = "‖u − u_h‖_{L²}, σ_{n,max}", series = { { name = "x", x = { 1, 2 }, y = { 1, 2 } } } }
 check.that(select(3, letters "letters.svg"):find("‖u − u\nh\n‖\nL²\n, σ\nn,max", 1, true))
+
+-- Names in legends are never cut off.
+refused(function() dotyk.chart{ file = "letters.svg", width = 85, series = { { name = long, x = { 1, 2, 3 }, y = { 1, 2, 1 } } } } end, "is wider than its chart: give fewer words")
 
 -- Beside 'size' the width says how large letters are.
 dotyk.chart{ file = "letters.svg", size = { 1000, 500 }, width = 120, series = { { x = { 1, 2 }, y = { 1, 2 } } } }

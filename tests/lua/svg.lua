@@ -51,6 +51,7 @@ return function(file)
   for shape, coordinates, fill, rest in all:gmatch '<(poly%a+) points="([^"]*)" fill="([^"]*)"([^>]*)' do
     local mark <const> = box_of(numbers(coordinates))
     mark.fill, mark.stroke, mark.width, mark.dashed = fill, rest:match 'stroke="(#%x+)"', tonumber(rest:match 'stroke%-width="([%d.]+)"'), rest:find "dasharray" ~= nil
+    mark.gap = tonumber(rest:match 'dasharray="[%d.]+ ([%d.]+)')
     local into <const> = fill == "none" and it.lines or it.polygons
     into[#into + 1] = mark
   end

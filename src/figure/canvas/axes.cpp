@@ -1,5 +1,6 @@
 #include "figure/canvas/axes.hpp"
 
+#include <iterator>
 #include <numbers>
 #include <tuple>
 
@@ -109,16 +110,34 @@ Ticks few_ticks(double low, double high, double wanted, double plain) {
   return out;
 }
 
+double share_below(const Axis& axis) {
+  constexpr double kLeast = 0.2;
+  const AxisBreak& b = *axis.left_out;
+  return std::clamp((b.from - axis.low) / (b.from - axis.low + axis.high - b.to), kLeast, 1 - kLeast);
+}
+
 Ticks broken_ticks(const Axis& axis, double wanted) {
   constexpr double kMost = 20;
   const AxisBreak& b = *axis.left_out;
-  const double all = axis.high - axis.low, share = all / (all - (b.to - b.from)), least = std::max(3.0, wanted) * share;
+  const double below = b.from - axis.low, above = axis.high - b.to, share = share_below(axis);
+  const bool one_scale = std::abs(share - below / (below + above)) < 1e-9;
+  const auto part = [&](double low, double high, double labels, std::size_t least) {
+    Ticks out;
+    for (double n = std::max(1.0, labels); out.labelled().size() < least && n < kMost; n *= 1.3) out = linear_ticks(low, high, static_cast<int>(n));
+    return out;
+  };
+  if (!one_scale) {
+    Ticks out = part(axis.low, b.from, share * wanted, 2), upper = part(b.to, axis.high, (1 - share) * wanted, 1);
+    std::ranges::copy(upper.ticks, std::back_inserter(out.ticks));
+    if (out.exponent == upper.exponent) return out;
+  }
+  const double least = std::max(3.0, wanted) * (axis.high - axis.low) / (below + above);
   for (double n = least;; n *= 1.3) {
     Ticks out = linear_ticks(axis.low, axis.high, static_cast<int>(n));
     std::erase_if(out.ticks, [&](const Tick& t) { return t.value >= b.from && t.value <= b.to; });
     const std::vector<double> values = out.labelled();
-    const auto above = std::count_if(values.begin(), values.end(), [&](double v) { return v > b.to; });
-    if ((above > 0 && std::ssize(values) - above > 1) || n > kMost * least) return out;
+    const auto over = std::count_if(values.begin(), values.end(), [&](double v) { return v > b.to; });
+    if ((over > 0 && std::ssize(values) - over > 1) || n > kMost * least) return out;
   }
 }
 

@@ -102,6 +102,8 @@ void draw_frame(Canvas& canvas, const Axes& axes);
 double widest_label(const Ticks& ticks, double size);
 // Ticks for so many labels, or a few more: at least four of them labelled, or two where less than 2.3 are wanted, as there is no room for four.
 Ticks few_ticks(double low, double high, double wanted, double plain = 1e-3);
+// Of the height of a broken axis the part below its break: in proportion, unless one of the parts would then be very low.
+double share_below(const Axis& axis);
 // Of a broken axis: about so many labels on what is not left out, at least one above and two below it.
 Ticks broken_ticks(const Axis& axis, double wanted);
 // Of a horizontal axis: as many as have room for their labels; three where a power of ten beside the axis makes that room.

@@ -128,7 +128,7 @@ ColourScale colour_scale(const ScenePicture& p, const std::optional<Box>& window
   scale.least = scale.low = part.least, scale.greatest = scale.high = part.greatest;
   if (p.field_range) scale.low = (*p.field_range)[0], scale.high = (*p.field_range)[1];
   else leave_out_peaks(scale, values_of(p, window));
-  constexpr double kNearZero = 0.2;
+  constexpr double kNearZero = 0.5;
   if (!p.field_range && !p.field_signed && scale.low > 0 && scale.low < kNearZero * scale.high) scale.low = 0;
   // A field without sign may dip below zero by rounding, or by recovery.
   const double lesser = std::min(-scale.low, scale.high), greater = std::max(-scale.low, scale.high);

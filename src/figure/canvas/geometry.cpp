@@ -53,6 +53,15 @@ std::vector<int> edges_of(const Facets& polygons, bool single) {
 
 }  // namespace
 
+double distance(const Segment& segment, Point p) {
+  const Point along = segment[1] - segment[0], to = p - segment[0];
+  const double square = along.x * along.x + along.y * along.y;
+  const double share = square > 0 ? (to.x * along.x + to.y * along.y) / square : 0;
+  return length(to - std::clamp(share, 0.0, 1.0) * along);
+}
+
+double distance(const Segment& a, const Segment& b) { return std::min({distance(a, b[0]), distance(a, b[1]), distance(b, a[0]), distance(b, a[1])}); }
+
 std::vector<int> unique_edges(const Facets& polygons) { return edges_of(polygons, false); }
 
 std::vector<int> rim(const Facets& polygons) { return edges_of(polygons, true); }

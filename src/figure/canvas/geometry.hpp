@@ -68,6 +68,10 @@ std::vector<std::array<P, 2>> hatched(std::span<const P> corner, double spacing)
   return out;
 }
 
+using Segment = std::array<Point, 2>;
+double distance(const Segment& segment, Point p);
+double distance(const Segment& a, const Segment& b);  // of two that do not cross
+
 // Polygons of `each` corners.
 struct Facets {
   std::vector<int> nodes;

@@ -143,12 +143,10 @@ private:
     room_ = {room_.left + indent_, room_.bottom, room_.right - indent_, room_.bottom + side + 2 * rim().y};
   }
 
-  // The parts of a broken axis below and above its break have the same scale, unless one of them would then be very low.
   void share_height(Axis& y) const {
-    constexpr double kLeast = 0.2;
     AxisBreak& b = *y.left_out;
-    const double gap = strip_gap * em_, share = (b.from - y.low) / (b.from - y.low + y.high - b.to);
-    b.low = y.from + std::clamp(share, kLeast, 1 - kLeast) * (y.to - y.from - gap);
+    const double gap = strip_gap * em_;
+    b.low = y.from + share_below(y) * (y.to - y.from - gap);
     b.high = b.low + gap;
   }
 

@@ -2,6 +2,8 @@
 
 #include <numeric>
 
+#include "base/error.hpp"
+
 #include "figure/chart/chart_map.hpp"
 
 namespace dotyk::figure {
@@ -19,27 +21,44 @@ constexpr std::array methods{"pdas", "newton", "projected_cg", "interior_point",
 
 bool takes_colour(const SeriesPicture& s) { return !s.reference && !s.twin && !s.front && !s.status; }
 
-// For each of these names its place among the methods; their own order where one is no method.
-std::vector<int> places_of(const std::vector<std::string>& names) {
-  std::vector<int> places, order;
-  for (const std::string& name : names) {
-    places.push_back(static_cast<int>(std::ranges::find(methods, name) - methods.begin()));
-    order.push_back(static_cast<int>(order.size()));
-  }
-  return std::ranges::count(places, static_cast<int>(methods.size())) > 0 ? order : places;
+// "projected CG" as projected_cg.
+std::string identifier(std::string name) {
+  std::ranges::transform(name, name.begin(), [](char c) { return c == ' ' ? '_' : static_cast<char>(std::tolower(static_cast<unsigned char>(c))); });
+  return name;
 }
 
-// The place of the same name before the i-th series on the other y axis, whose colour it has too; or none.
-std::optional<std::size_t> same_on_other_axis(const std::vector<SeriesPicture>& series, std::size_t i) {
-  for (std::size_t k = 0; k < i; ++k)
-    if (takes_colour(series[k]) && takes_colour(series[i]) && !series[i].name.empty() && series[k].name == series[i].name && series[k].right != series[i].right) return k;
+// For each of these names its place: that among the methods, however written; others take, in their order, the first colours that no method here has.
+std::vector<int> places_of(const std::vector<std::string>& names) {
+  std::vector<int> places;
+  std::vector<bool> taken(methods.size() + names.size() + series_colours, false);
+  for (const std::string& name : names) {
+    const auto place = static_cast<std::size_t>(std::ranges::find(methods, identifier(name)) - methods.begin());
+    places.push_back(place < methods.size() ? static_cast<int>(place) : -1);
+    if (place < methods.size()) taken[place] = taken[place % series_colours] = true;
+  }
+  std::size_t next = 0;
+  for (int& place : places) {
+    if (place >= 0) continue;
+    while (taken[next]) ++next;
+    place = static_cast<int>(next++);
+  }
+  return places;
+}
+
+// The place of the same name before the i-th series, on the other y axis or of runs that failed, or that did not: it has its colour too; or none.
+std::optional<std::size_t> same_before(const std::vector<SeriesPicture>& series, std::size_t i) {
+  const SeriesPicture& s = series[i];
+  for (std::size_t k = 0; k < i; ++k) {
+    const SeriesPicture& other = series[k];
+    if (takes_colour(other) && takes_colour(s) && !s.name.empty() && other.name == s.name && (other.right != s.right || other.crossed != s.crossed)) return k;
+  }
   return std::nullopt;
 }
 
 std::vector<std::string> names_with_colours(const std::vector<SeriesPicture>& series) {
   std::vector<std::string> out;
   for (std::size_t i = 0; i < series.size(); ++i)
-    if (takes_colour(series[i]) && !same_on_other_axis(series, i)) out.push_back(series[i].name);
+    if (takes_colour(series[i]) && !same_before(series, i)) out.push_back(series[i].name);
   return out;
 }
 
@@ -61,7 +80,7 @@ std::vector<int> places(const ChartPicture& picture) {
   std::size_t next = 0;
   for (std::size_t i = 0; i < picture.series.size(); ++i) {
     const SeriesPicture& s = picture.series[i];
-    const auto same = same_on_other_axis(picture.series, i);
+    const auto same = same_before(picture.series, i);
     const bool takes = takes_colour(s) && !same;
     out.push_back(takes ? own[next] : same ? out[*same] : out.empty() ? 0 : out.back());
     if (s.place) out.back() = *s.place;
@@ -92,12 +111,16 @@ std::vector<Look> looks(const ChartPicture& picture) {
   const std::vector<SeriesPicture>& series = picture.series;
   const bool statuses = has_statuses(picture);
   const std::vector<int> at = places(picture);
+  const auto beside = [&](std::size_t i) {
+    const auto same = same_before(series, i);
+    return same && series[*same].right != series[i].right;
+  };
   std::vector<Look> out;
   for (std::size_t i = 0; i < series.size(); ++i) {
     const SeriesPicture& s = series[i];
     const int k = at[i];
     const Colour colour = s.front ? front_yellow : s.reference ? reference_grey : s.status ? status_colour(*s.status) : series_colour(statuses ? clear[k % clear.size()] : picture.map ? clear_of_cells[k % clear.size()] : k);
-    out.push_back({s, colour, s.status ? status_marker(*s.status) : markers[k % markers.size()], s.reference || s.twin || same_on_other_axis(series, i) || (!statuses && k >= series_colours)});
+    out.push_back({s, colour, s.status ? status_marker(*s.status) : markers[k % markers.size()], s.reference || s.twin || beside(i) || (!statuses && k >= series_colours)});
   }
   return out;
 }
@@ -144,9 +167,9 @@ void Pen::sample(Canvas& canvas, const Look& look, const Box& b) const {
   if (s.style != SeriesStyle::line && !s.reference) mark(canvas, look, middle);
 }
 
-void Pen::stroke(Canvas& canvas, std::span<const Point> points, const Look& look, double rim) const {
-  const std::array<double, 2> dash{0.42 * em, 0.26 * em};
-  canvas.polyline(points, line_width() + 2 * rim, look.colour, look.dashed ? std::span<const double>(dash) : std::span<const double>());
+void Pen::stroke(Canvas& canvas, std::span<const Point> points, const Look& look) const {
+  const std::array<double, 2> dash{0.42 * em, 0.34 * em};
+  canvas.polyline(points, line_width(), look.colour, look.dashed ? std::span<const double>(dash) : std::span<const double>());
 }
 
 void Pen::mark(Canvas& canvas, const Look& look, Point at, double rim) const {
@@ -174,6 +197,15 @@ LegendEntry entry(const std::string& name, const Look& look, double em) {
   const SeriesPicture& s = look.data;
   const bool marker = !has_line(s) && !s.front && (s.low.empty() || s.bars);
   return {name, [pen = Pen{em}, look](Canvas& canvas, const Box& box) { pen.sample(canvas, look, box); }, marker ? kMarker : kLine};
+}
+
+}  // namespace
+
+namespace {
+
+void check_width(const std::vector<LegendEntry>& entries, double em, double width) {
+  for (const LegendEntry& entry : entries)
+    if (width > 0 && Legend({entry}, em, 0).width() > width) throw InputError("the name \"" + entry.name + "\" is wider than its chart: give fewer words, or a greater 'width'");
 }
 
 }  // namespace
@@ -208,12 +240,14 @@ Legend common_legend(const std::vector<ChartPicture>& panels, double em, double 
   }
   if (cells) entries = map_legend(*cells);
   for (const auto& [name, look] : seen) entries.push_back(entry(name, look, em));
+  if (shared) check_width(entries, legend_letters * em, width);
   return Legend(shared ? std::move(entries) : std::vector<LegendEntry>(), legend_letters * em, width);
 }
 
 Legend chart_legend(const ChartPicture& picture, double em, double width, const std::set<const SeriesPicture*>& also) {
   std::vector<LegendEntry> entries = picture.map ? map_legend(*picture.map) : std::vector<LegendEntry>();
   for (const Look& look : named(picture, also)) entries.push_back(entry(name_of(look, picture), look, em));
+  check_width(entries, legend_letters * em, width);
   return Legend(std::move(entries), legend_letters * em, width);
 }
 

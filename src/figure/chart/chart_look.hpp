@@ -38,8 +38,8 @@ struct Pen {
   double marker_size(const SeriesPicture& s) const { return (s.style == SeriesStyle::points ? 0.45 : 0.5) * em; }
 
   void sample(Canvas& canvas, const Look& look, const Box& box) const;
+  void stroke(Canvas& canvas, std::span<const Point> points, const Look& look) const;
   // `rim`: pixels that it is broader on both sides.
-  void stroke(Canvas& canvas, std::span<const Point> points, const Look& look, double rim = 0) const;
   void mark(Canvas& canvas, const Look& look, Point at, double rim = 0) const;
   // From end to end, with caps.
   void whisker(Canvas& canvas, const std::array<Point, 2>& ends, const Look& look) const;

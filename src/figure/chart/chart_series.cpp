@@ -115,32 +115,28 @@ void SeriesDrawing::draw_band(const Look& look) {
       canvas_.convex(std::array{at(i, s.low[i]), at(i + 1, s.low[i + 1]), at(i + 1, s.high[i + 1]), at(i, s.high[i])}, look.colour, 0.2);
 }
 
-// No line is hidden: where one lies beneath later ones it is broader than these.
+// No line is hidden: where one lies beneath later ones it shows as dashes on them, the deeper the farther apart, so that those above it show between.
 void SeriesDrawing::draw_lines() {
   constexpr int kDeepest = 3;
-  const double width = pen_.line_width(), near = 0.75 * width, rim = 0.75 * width, least = 3 * pen_.em;
+  const double width = pen_.line_width(), near = 0.75 * width, dash = 0.5 * pen_.em, least = 3 * pen_.em;
   const Box& room = axes_.left.room;
-  const auto stroke = [&](const std::vector<Point>& curve, const Look& look, double broader) {
-    if (look.dashed) pen_.stroke(canvas_, curve, look, broader);
-    else stroke_within(canvas_, room, curve, width + 2 * broader, look.colour);
-  };
   std::vector<std::vector<std::vector<Point>>> lines;
   std::vector<Neighbourhood> solid;  // about those that hide what is beneath
   std::vector<std::size_t> of;       // whose they are
   for (std::size_t k = 0; k < looks_.size(); ++k) {
     const SeriesPicture& s = looks_[k].data;
     lines.push_back(has_line(s) ? curves(s.x, s.y, axes_of(s)) : std::vector<std::vector<Point>>());
+    for (const auto& curve : lines[k]) looks_[k].dashed ? pen_.stroke(canvas_, curve, looks_[k]) : stroke_within(canvas_, room, curve, width, looks_[k].colour);
     if (looks_[k].dashed || lines[k].empty()) continue;
     of.push_back(k);
     solid.emplace_back(room, near);
     for (const auto& curve : lines[k]) solid.back().add(curve);
   }
-  for (std::size_t k = 0; k < looks_.size(); ++k) {
+  for (std::size_t k = looks_.size(); k-- > 0;) {
     const std::vector<Neighbourhood> later(solid.begin() + (std::ranges::upper_bound(of, k) - of.begin()), solid.end());
-    for (const auto& curve : lines[k]) {
-      stroke(curve, looks_[k], 0);
-      for (const HiddenPart& part : hidden_parts(curve, later, room, least)) stroke(part.points, looks_[k], std::min(part.depth, kDeepest) * rim);
-    }
+    for (const auto& curve : lines[k])
+      for (const HiddenPart& part : hidden_parts(curve, later, room, least))
+        canvas_.polyline(without_straight(part.points), width, looks_[k].colour, std::array{dash, ((1 << std::min(part.depth, kDeepest)) - 1) * dash});
   }
 }
 

@@ -127,6 +127,21 @@ std::optional<Circle> circle_through(const std::vector<Point>& points) {
   return on ? std::optional(circle) : std::nullopt;
 }
 
+// Of points about a centre: the direction opposite to the middle of the gap between them, if it is much wider than the next widest; or none.
+std::optional<double> opposite_of_gap(const std::vector<Point>& points, Point centre) {
+  constexpr double kWider = 1.5;
+  std::vector<double> angles;
+  for (const Point& p : points) angles.push_back(std::atan2(p.y - centre.y, p.x - centre.x));
+  std::ranges::sort(angles);
+  double widest = 0, second = 0, middle = 0;
+  for (std::size_t k = 0; k < angles.size(); ++k) {
+    const double next = k + 1 < angles.size() ? angles[k + 1] : angles[0] + 2 * std::numbers::pi, gap = next - angles[k];
+    if (gap > widest) second = widest, widest = gap, middle = (angles[k] + next) / 2;
+    else second = std::max(second, gap);
+  }
+  return widest > kWider * second ? std::optional(middle + std::numbers::pi) : std::nullopt;
+}
+
 // A surface of straight lines, unrolled; none where its profile is neither a graph seen along the mean normal nor on a circle.
 std::optional<Flat> unrolled(const ContactPicture& contact, const Vec3& lines) {
   Vec3 middle = mean_normal(contact, false);
@@ -145,8 +160,11 @@ std::optional<Flat> unrolled(const ContactPicture& contact, const Vec3& lines) {
     const std::optional<Circle> circle = circle_through(profile);
     if (!circle) return std::nullopt;
     const double side = dot(unit(contact.nodes.front().normal), plus(plus({0, 0, 0}, t, profile[0].x - circle->centre.x), middle, profile[0].y - circle->centre.y)) < 0 ? -1 : 1;
+    const auto from_middle = [&](Point p) { return std::atan2(p.x - circle->centre.x, side * (p.y - circle->centre.y)); };
+    const std::optional<double> open = opposite_of_gap(profile, circle->centre);
+    const double zero = open ? from_middle(circle->centre + Point{std::cos(*open), std::sin(*open)}) : 0;
     for (const Point& p : profile) {
-      const double angle = std::atan2(p.x - circle->centre.x, side * (p.y - circle->centre.y));
+      const double angle = std::remainder(from_middle(p) - zero, 2 * std::numbers::pi);
       arc.push_back(circle->radius * (angle > (1 - 1e-9) * std::numbers::pi ? -std::numbers::pi : angle));  // at the cut, where rounding decides
     }
     flat.period = 2 * std::numbers::pi * circle->radius;

@@ -85,6 +85,11 @@ std::vector<Run> runs(const ContactPicture& contact, const std::vector<Point>& a
 
 constexpr double marker_size = 0.55, least_marker = 0.3;  // em
 
+// Has one of its statuses room for a marker?
+bool is_marked(const Stage& stage, const ContactPicture& contact) {
+  return !is_short(stage, contact) || std::ranges::any_of(runs(contact, stage.at(contact.nodes)), [&](const Run& run) { return run.length >= least_marker * stage.em; });
+}
+
 void mark(Stage& stage, Status status, Point at, double size) { stage.over.marker(status_marker(status), at, size * stage.em, status_colour(status)); }
 
 // Each half of a facet in the colour of its node.
@@ -139,9 +144,17 @@ std::array<Point, 2> shear_arrow(const Stage& stage, const ContactNode& node) {
   return {middle - half * t, middle + half * t};
 }
 
+// The nodes whose shear is worth an arrow that is seen whole.
+std::vector<std::size_t> rubbing_nodes(const Stage& stage, const ContactPicture& contact, const std::function<Segment(std::size_t node)>& arrow) {
+  std::vector<std::size_t> out;
+  for (std::size_t i = 0; i < contact.nodes.size(); ++i)
+    if (length(contact.nodes[i].shear) >= least_share * stage.greatest_shear && std::ranges::all_of(arrow(i), [&](Point end) { return stage.shows(end); })) out.push_back(i);
+  return out;
+}
+
 LegendEntry status_entry(const Stage& stage, Status status) {
   const auto& contacts = stage.picture.contacts;
-  const bool markers = std::any_of(contacts.begin(), contacts.end(), [&](const ContactPicture& c) { return !is_short(stage, c); });
+  const bool markers = std::any_of(contacts.begin(), contacts.end(), [&](const ContactPicture& c) { return is_marked(stage, c); });
   const Colour colour = status_colour(status);
   if (stage.map()) return map_status_entry(stage, status);
   if (stage.plane)
@@ -210,11 +223,18 @@ void contact_legend(const Stage& stage, std::vector<LegendEntry>& out) {
                      c.line(b.midline()[0], b.midline()[1], 0.3 * em, {150, 150, 150});
                      c.line(b.midline()[0], b.midline()[1], 0.16 * em, {255, 255, 255});
                    }});
+  if (stage.colours_contacts() && stage.inset) {
+    std::set<Status> on_map;
+    for (const ContactNode& node : stage.inset->contacts.front().nodes) on_map.insert(node.status);
+    for (const Status status : on_map) out.push_back(map_status_entry(stage, status));
+  }
   if (!stage.colours_contacts())
     for (const Status status : present) out.push_back(status_entry(stage, status));
   const bool in_colours = stage.colours_contacts() || (stage.map() && stage.scale.shown);
   if (stage.greatest_pressure > 0 && stage.pressures() && !in_colours) out.push_back(pressure_entry(stage));
-  if (stage.greatest_shear > 0 && (stage.plane || stage.inset)) out.push_back(shear_entry(stage));
+  const auto rubs = [&](const ContactPicture& contact) { return !rubbing_nodes(stage, contact, [&](std::size_t i) { return shear_arrow(stage, contact.nodes[i]); }).empty(); };
+  const bool shear = stage.plane && !stage.map() ? std::ranges::any_of(stage.picture.contacts, rubs) : stage.plane || stage.inset;
+  if (stage.greatest_shear > 0 && shear) out.push_back(shear_entry(stage));
 }
 
 // In space, and on maps, the legend says the greatest pressure.
@@ -247,8 +267,8 @@ void draw_contacts(Stage& stage, vtkRenderer* renderer) {
       if (stage.strips()) draw_strip(stage, contact);
       if (contact.nodes_per_facet == 2) draw_joint(stage, contact), draw_line(stage, contact);
       if (stage.pressures() && !stage.strips()) draw_arrows(stage, contact);
-      draw_shear(stage, contact, stage.at(contact.nodes), [&](const std::vector<Point>& at) { return stage.spaced(at, 1.1 * longest_shear * stage.em); },
-                 [&](std::size_t i) { return shear_arrow(stage, contact.nodes[i]); });
+      draw_shear(stage, shear_arrows(stage, contact, stage.at(contact.nodes), [&](const std::vector<Point>& at) { return stage.spaced(at, 1.1 * longest_shear * stage.em); },
+                                     [&](std::size_t i) { return shear_arrow(stage, contact.nodes[i]); }));
     } else {
       add_contact_surface(stage, contact, renderer);
     }
@@ -273,24 +293,34 @@ void draw_labels(Canvas& canvas, const std::vector<Label>& labels) {
   }
 }
 
-void draw_shear(Stage& stage, const ContactPicture& contact, const std::vector<Point>& at,
-                const std::function<std::vector<std::size_t>(const std::vector<Point>& places)>& choice,
-                const std::function<std::array<Point, 2>(std::size_t node)>& arrow) {
-  if (!(stage.greatest_shear > 0)) return;
-  std::vector<std::size_t> rubbing;
+std::vector<Segment> shear_arrows(const Stage& stage, const ContactPicture& contact, const std::vector<Point>& at,
+                                  const std::function<std::vector<std::size_t>(const std::vector<Point>& places)>& choice,
+                                  const std::function<Segment(std::size_t node)>& arrow) {
+  if (!(stage.greatest_shear > 0)) return {};
+  const std::vector<std::size_t> rubbing = rubbing_nodes(stage, contact, arrow);
   std::vector<Point> places;
-  for (std::size_t i = 0; i < at.size(); ++i)
-    if (length(contact.nodes[i].shear) >= least_share * stage.greatest_shear && std::ranges::all_of(arrow(i), [&](Point end) { return stage.shows(end); }))
-      rubbing.push_back(i), places.push_back(at[i]);
+  for (const std::size_t i : rubbing) places.push_back(at[i]);
   std::vector<std::size_t> chosen = choice(places);
   std::vector<std::size_t> seen;
   for (std::size_t k = 0; k < rubbing.size(); ++k)
     if (stage.shows(places[k], 0.4 * stage.em)) seen.push_back(k);
-  keep_greatest(chosen, seen, places, [&](std::size_t k) { return length(contact.nodes[rubbing[k]].shear); });
-  for (const std::size_t k : chosen) {
-    const auto [tail, head] = arrow(rubbing[k]);
-    stage.over.arrow(tail, head, std::max(1.4, stage.em / 11), 0.42 * stage.em, shear_line, std::max(0.9, stage.em / 24));
-  }
+  const auto size = [&](std::size_t k) { return length(contact.nodes[rubbing[k]].shear); };
+  keep_greatest(chosen, seen, places, size);
+  // What rubs the other way has an arrow too.
+  const auto against = [&](std::size_t k, std::size_t j) { return dot(contact.nodes[rubbing[k]].shear, contact.nodes[rubbing[j]].shear) < 0; };
+  std::ranges::sort(seen, std::greater{}, size);
+  for (const std::size_t k : seen)
+    if (std::ranges::all_of(chosen, [&](std::size_t j) { return against(k, j) && distance(arrow(rubbing[k]), arrow(rubbing[j])) > 0.3 * stage.em; })) {
+      chosen.push_back(k);
+      break;
+    }
+  std::vector<Segment> out;
+  for (const std::size_t k : chosen) out.push_back(arrow(rubbing[k]));
+  return out;
+}
+
+void draw_shear(Stage& stage, const std::vector<Segment>& arrows) {
+  for (const auto& [tail, head] : arrows) stage.over.arrow(tail, head, std::max(1.4, stage.em / 11), shear_head * stage.em, shear_line, std::max(0.9, stage.em / 24));
 }
 
 Layer contact_layer() { return {5, draw_contacts, contact_legend, contact_bounds}; }

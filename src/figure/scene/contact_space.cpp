@@ -125,7 +125,7 @@ void add_contact_surface(const Stage& stage, const ContactPicture& contact, vtkR
 
 namespace {
 
-constexpr double inset_share = 0.36, inset_em = 14, inset_height = 12, least_inset = 20;  // its width in shares of the picture's, and in em; its height in em; mm
+constexpr double inset_height = 12, least_inset = 20;  // em; mm of width
 
 // The contact that carries most, of those that have a map; of equals (but for rounding) the first.
 const ContactPicture* inset_contact(const ScenePicture& picture) {
@@ -148,7 +148,9 @@ std::optional<ScenePicture> inset_of(const ScenePicture& picture, const ColourSc
   ScenePicture map = contact_map(*contact);
   const double em = letters(picture);
   map.file = picture.file, map.title = "contact " + contact->name;
-  map.width = static_cast<int>(std::min(inset_em * em, inset_share * picture.width));
+  // A field of contacts is hidden between bodies: the inset is then what shows it.
+  const auto [most, share] = contact->values.empty() ? std::tuple{14.0, 0.36} : std::tuple{20.0, 0.45};
+  map.width = static_cast<int>(std::min(most * em, share * picture.width));
   map.printed = printed_width(picture) * map.width / picture.width;
   if (*map.printed < least_inset) return std::nullopt;
   map.length_unit = picture.length_unit;

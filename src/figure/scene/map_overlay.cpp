@@ -1,4 +1,5 @@
 // On the map of a contact: statuses, pressure, shear.
+#include <functional>
 #include <map>
 #include <numeric>
 #include <set>
@@ -80,16 +81,23 @@ std::vector<std::vector<std::size_t>> regions(const ContactPicture& contact) {
   return out;
 }
 
-// On a field statuses are told by markers, and by lines between them. Each region has a marker, the nearest of its nodes to its middle where no other is on it.
-void draw_markers(Stage& stage, const ContactPicture& contact, const std::vector<Point>& at) {
+// On a field statuses are told by markers, and by lines between them. Each region has a marker, the nearest of its nodes to its middle where no other is on it;
+// beside arrows if there is room.
+void draw_markers(Stage& stage, const ContactPicture& contact, const std::vector<Point>& at, const std::vector<Segment>& arrows) {
+  const auto covered = [&](std::size_t i) {
+    return std::ranges::any_of(arrows, [&](const Segment& arrow) { return distance(arrow, at[i]) < 0.45 * map_marker * stage.em || length(arrow[1] - at[i]) < 0.5 * (map_marker + shear_head) * stage.em; });
+  };
   std::vector<std::size_t> marked = apart(stage, at, map_spacing * stage.em);
+  std::erase_if(marked, covered);
   const std::set<std::size_t> spaced(marked.begin(), marked.end());
   for (const std::vector<std::size_t>& region : regions(contact)) {
     if (std::ranges::any_of(region, [&](std::size_t i) { return spaced.contains(i); })) continue;
     Bounds bounds;
-    for (const std::size_t i : region) bounds.add(at[i]);
-    const std::size_t middle = *std::ranges::min_element(region, {}, [&](std::size_t i) { return length(at[i] - bounds.centre()); });
-    if (stage.shows(at[middle], 0.3 * stage.em)) marked.push_back(middle);
+    std::vector<std::size_t> seen;
+    for (const std::size_t i : region)
+      if (stage.shows(at[i], 0.3 * stage.em)) seen.push_back(i), bounds.add(at[i]);
+    if (const auto hidden = std::ranges::stable_partition(seen, std::not_fn(covered)); hidden.begin() != seen.begin()) seen.erase(hidden.begin(), hidden.end());
+    if (!seen.empty()) marked.push_back(*std::ranges::min_element(seen, {}, [&](std::size_t i) { return length(at[i] - bounds.centre()); }));
   }
   for (const std::size_t i : marked) {
     const Status status = contact.nodes[i].status;
@@ -119,12 +127,13 @@ void draw_contact_map(Stage& stage, const ContactPicture& contact) {
   if (!field) fill_statuses(stage, contact, at);
   for (const auto& [a, b] : pairs(rim({contact.facets, contact.nodes_per_facet}))) stage.over.line(at[a], at[b], std::max(1.2, stage.em / 18), axes_ink);
   field ? draw_borders(stage, contact, at) : draw_pressure(stage, contact, at);
-  if (field) draw_markers(stage, contact, at);
   // From the nodes, or from the rims of markers there.
-  draw_shear(stage, contact, at, [&](const std::vector<Point>& places) { return spread(places, places, map_spacing * stage.em); }, [&](std::size_t i) {
+  const std::vector<Segment> arrows = shear_arrows(stage, contact, at, [&](const std::vector<Point>& places) { return spread(places, places, map_spacing * stage.em); }, [&](std::size_t i) {
     const Point shear{contact.nodes[i].shear[0], contact.nodes[i].shear[1]}, tail = at[i] + (field ? 0.5 * map_marker * stage.em / std::max(length(shear), 1e-300) : 0) * shear;
-    return std::array{tail, tail + longest_arrow * stage.em / stage.greatest_shear * shear};
+    return Segment{tail, tail + longest_arrow * stage.em / stage.greatest_shear * shear};
   });
+  if (field) draw_markers(stage, contact, at, arrows);
+  draw_shear(stage, arrows);
 }
 
 LegendEntry map_status_entry(const Stage& stage, Status status) {

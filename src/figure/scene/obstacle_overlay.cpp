@@ -114,7 +114,8 @@ void obstacle_legend(const Stage& stage, std::vector<LegendEntry>& out) {
     return !stage.window || std::adjacent_find(at.begin(), at.end(), [&](Point p, Point q) { return stage.shows(p, q); }) != at.end();
   });
   if (!seen) return;
-  out.push_back({"rigid obstacle", [em = stage.em](Canvas& c, const Box& b) {
+  out.push_back({"rigid obstacle", [em = stage.em, plane = stage.plane](Canvas& c, const Box& b) {
+                   if (!plane) return c.box(Box::about(b.centre(), {std::min(1.2 * em, 0.8 * b.width()), 0.7 * em}), hatch_ground);
                    const double foot = b.centre().y - 0.3 * em, depth = 0.6 * em, line = std::max(1.0, em / 24);
                    c.box({b.left, foot, b.right, foot + depth}, hatch_ground);
                    for (double x = b.left + 0.3 * em; x < b.right; x += 0.55 * em)

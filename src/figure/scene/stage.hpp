@@ -156,9 +156,10 @@ void draw_contact_map(Stage& stage, const ContactPicture& contact);
 void hatch_slip(Canvas& canvas, std::span<const Point> polygon, double em);
 LegendEntry map_status_entry(const Stage& stage, Status status);
 // Arrows of the shear at some of the nodes that rub, those that `choice` takes of their places; where a node's arrow begins and ends.
-void draw_shear(Stage& stage, const ContactPicture& contact, const std::vector<Point>& at,
-                const std::function<std::vector<std::size_t>(const std::vector<Point>& places)>& choice,
-                const std::function<std::array<Point, 2>(std::size_t node)>& arrow);
+std::vector<Segment> shear_arrows(const Stage& stage, const ContactPicture& contact, const std::vector<Point>& at,
+                                  const std::function<std::vector<std::size_t>(const std::vector<Point>& places)>& choice,
+                                  const std::function<Segment(std::size_t node)>& arrow);
+void draw_shear(Stage& stage, const std::vector<Segment>& arrows);
 // Of one contact in space: statuses and arrows of the pressure.
 void add_contact_surface(const Stage& stage, const ContactPicture& contact, vtkRenderer* renderer);
 
@@ -185,6 +186,6 @@ constexpr Colour pressure_line{45, 50, 90}, pressure_fill{205, 214, 235}, shear_
 constexpr double hatch_depth = 0.75;  // em
 // Surfaces that slip are hatched: the greys of stick and slip are nearly the same.
 constexpr Colour slip_hatch{90, 55, 0};
-constexpr double slip_spacing = 0.42, slip_line = 0.07;  // em
+constexpr double slip_spacing = 0.42, slip_line = 0.07, shear_head = 0.42;  // em
 
 }  // namespace dotyk::figure

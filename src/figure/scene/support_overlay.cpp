@@ -115,7 +115,6 @@ void support_bounds(const Stage& stage, Bounds& bounds) {
   for (const SupportSymbol& s : stage.picture.supports) bounds.add(stage.at(s) + 1.35 * support_size * stage.em * stage.view.direction(s.normal));
 }
 
-using Segment = std::array<Point, 2>;
 
 // Where a load arrow begins and ends: pixels, the third towards the eye.
 std::array<Vec3, 2> load_arrow_in_space(const Stage& stage, const LoadArrow& load) {
@@ -131,18 +130,6 @@ std::array<Vec3, 2> load_arrow_in_space(const Stage& stage, const LoadArrow& loa
 Segment load_arrow(const Stage& stage, const LoadArrow& load) {
   const auto [tail, head] = load_arrow_in_space(stage, load);
   return {Point{tail[0], tail[1]}, Point{head[0], head[1]}};
-}
-
-double distance(const Segment& segment, Point p) {
-  const Point along = segment[1] - segment[0], to = p - segment[0];
-  const double square = along.x * along.x + along.y * along.y;
-  const double share = square > 0 ? (to.x * along.x + to.y * along.y) / square : 0;
-  return length(to - std::clamp(share, 0.0, 1.0) * along);
-}
-
-// Between arrows that do not cross.
-double distance(const Segment& a, const Segment& b) {
-  return std::min({distance(a, b[0]), distance(a, b[1]), distance(b, a[0]), distance(b, a[1])});
 }
 
 void draw_loads(Stage& stage, vtkRenderer* renderer) {
