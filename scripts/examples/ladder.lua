@@ -116,7 +116,7 @@ local loads <const> = own * middle * D + person * D * (1 + thick) * (1 - 2 / 3)
 local missing = math.max(math.abs(fx), math.abs(fy - own - person)) / (own + person)
 local turning = math.abs(moment - loads) / loads
 print(("equilibrium: forces to %.1e, moments to %.1e of the weights'"):format(missing, turning))
-s:render{ file = "images/ladder.png", field = "von_mises", deform = 100, loads = true, units = { length = "m", stress = "Pa", load = "N/m" }, zoom = { 1.4, -0.15, 2.1, 0.35 } }
+s:render{ file = "images/ladder.png", field = "von_mises", deform = 100, loads = true, units = { length = "m", stress = "Pa", load = "Pa" }, zoom = { 1.4, -0.15, 2.1, 0.35 } }
 
 -- 5. A block between two walls, by given friction g alone: 2 g A is all it carries.
 local function wedged(weight, g, n)

@@ -50,6 +50,19 @@ check.that(same:text "a →" and same:text "right".fill == same:text "left".fill
 local stroked <const> = {}
 for _, line in ipairs(same.lines) do if line.stroke == "#0072b2" then stroked[#stroked + 1] = line.dashed end end
 check.equal(stroked, { false, true, false, true }, "full, dashed, and so in the legend")
+-- A method has its colour in every chart, however its name is written and whatever stands beside it; runs of it that failed have it too.
+local function strokes(names)
+  local series <const> = {}
+  for k, name in ipairs(names) do series[k] = { name = name, x = { 1, 2 }, y = { k, k }, style = "line" } end
+  local it <const>, out <const> = drawn{ series = series }, {}
+  for _, line in ipairs(it.lines) do if #out < #names and line.stroke ~= "#e4e4e4" and line.stroke ~= "#1e1e1e" then out[#out + 1] = line.stroke end end
+  return out
+end
+local newton <const>, projected <const> = "#d55e00", "#009e73"
+check.equal(strokes{ "projected_cg", "newton" }, { projected, newton })
+check.equal(strokes{ "own", "Newton", "projected CG" }, { "#0072b2", newton, projected })
+local failed <const> = drawn{ series = { { name = "PSOR", x = { 1, 2 }, y = { 1, 2 } }, { name = "PSOR", x = { 3 }, crossed = true } } }
+for _, line in ipairs(failed.lines) do check.that(line.stroke ~= "#0072b2", "the first colour beside a method") end
 wrong({ series = { { x = { 1 }, y = { 1 }, axis = "right" } } }, "one must be on the left")
 wrong({ y_right = "memory", series = { curve } }, "'y_right' without a series")
 wrong({ series = { { x = { 1 }, y = { 1 }, axis = "up" } } }, '"left" or "right"')
@@ -62,6 +75,11 @@ check.that(gap:text "2000".y - gap:text "9000".y < 2 * step, "7000 take less tha
 local bent -- where it passes the gap: two more points, at its edges
 for _, line in ipairs(gap.lines) do bent = bent or (line.stroke == "#0072b2" and #line.points == 6 and line) end
 check.that(bent.points[4].y - bent.points[5].y < 20 and bent.points[3].y - bent.points[4].y > 100)
+-- Where the parts have scales of their own their steps are their own too.
+local far <const> = drawn{ y_break = { 3, 900 }, series = { { name = "p", x = { 1, 2, 3, 4 }, y = { 1, 2, 1000, 1100 } } } }
+local numbers = 0
+for _, it in ipairs(far.texts) do if it.words:match "^%d+$" and it.x < 150 then numbers = numbers + 1 end end
+check.that(far:text "1000" and far:text "2" and numbers < 9, "few numbers")
 wrong({ y_break = { 1, 2 }, log = "y", series = { curve } }, "'y_break' from 1 to 2 on a logarithmic axis")
 wrong({ y_break = { 2, 1.5 }, series = { curve } }, "'y_break' from 2 to 1.5; the first must be the lesser")
 wrong({ y_break = { 2, 9 }, series = { curve } }, "must lie within the y axis, from 1 to 4")

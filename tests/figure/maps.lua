@@ -72,6 +72,15 @@ for _, case in ipairs{ { 90, 3 }, { 90, 10 }, { 60, 2 }, { 150, 2 } } do
   check.near(svg[along].high, arc, arc - chords + svg[along].slack, "R θ")
   spans(svg, 3 - along, 0, long, "y [mm]")
 end
+-- An open arc is whole, wherever it is pressed: it is cut in its opening.
+local function bend(u, y, r) return r * math.sin(math.rad(135) * u), y, r * math.cos(math.rad(135) * u) end
+local inner <const>, outer <const> = body({ -1, 0, 1 }, { 1, 3, 2 }, { 24, 2, 1 }, bend), body({ -1, 0, 2 }, { 1, 3, 3 }, { 24, 2, 1 }, bend)
+outer:part "top":fix()
+inner:part("pressed", function(x, y, z) return x^2 + z^2 < 1.1 and x > 0.7 end):pressure(1)
+local bush <const> = dotyk.scene{ inner, outer }
+local bore <const> = bush:contact{ inner:part "top", outer:part(bottom), friction = rough }
+svg = drawn(solved(bush), bore, { field = "status", units = { length = "mm" } })
+spans(svg, 1, -1.5 * math.pi, 1.5 * math.pi, "arc [mm]")
 -- 3. A pin in a hole: a closed cylinder is cut once, opposite to its pressure. Small pieces cover the map once.
 local n <const>, around <const>, long <const> = 4, 4 * math.pi, 3
 local function cylinder(u, v, z) local x <const>, y <const> = round(u, v) return 2 * x, 2 * y, z end

@@ -175,14 +175,15 @@ for _, by in ipairs{ { "unknowns", "N", "displacement unknowns N", { -0.5, -0.25
   dotyk.chart{ file = "images/adaptivity_" .. by[1] .. ".png", title = "Punch with sharp edges", x = by[3],
                y = "relative error in the energy norm", log = "xy", slopes = by[4], series = series }
 end
+local units <const> = { length = "mm", stress = "MPa" }
 local shown <const> = dotyk.adapt{ scene = punch, mesh = slab, tol = 0.06 }
-shown:render{ file = "images/adaptivity_punch.png", field = "none", edges = true, pressure = "none", deform = 1,
+shown:render{ file = "images/adaptivity_punch.png", field = "none", units = units, edges = true, pressure = "none", deform = 1,
               title = "Mesh for an error of 6 %" }
-shown:render{ file = "images/adaptivity_edge.png", field = "von_mises", edges = true, window = {0.42, -0.09, 0.58, 0.01},
+shown:render{ file = "images/adaptivity_edge.png", field = "von_mises", units = units, edges = true, window = {0.42, -0.09, 0.58, 0.01},
               title = "The punch's right edge" }
 
 local solid <const> = dotyk.adapt{ scene = punch, mesh = thick, tol = 1e-9, max_unknowns = most // 2 }
-solid:render{ file = "images/adaptivity_solid.png", field = "von_mises", edges = true, contact = false, deform = 1,
+solid:render{ file = "images/adaptivity_solid.png", field = "von_mises", units = units, edges = false, deform = 1, width = 178,
               view = {-0.6, -1, 0.9}, title = "A square punch with sharp edges" }
 
 -- 3. Hertz: a rigid parabola of radius R, on half of a block that is large beside the contact.
@@ -230,7 +231,7 @@ assert(cost[2].seconds < cost[1].seconds, "adaptive refinement should need less 
 
 local s <const>, last <const> = table.unpack(best)
 local reach <const> = 1.6 * last.a
-s:render{ file = "images/adaptivity_hertz.png", field = "von_mises", edges = true, window = {0, -1.6 * reach, 2 * reach, 0.2 * reach} }
+s:render{ file = "images/adaptivity_hertz.png", field = "von_mises", units = units, edges = true, window = {0, -1.6 * reach, 2 * reach, 0.2 * reach} }
 local x, p, hx, hp = {}, {}, {}, {}
 for _, node in ipairs(last.contact.nodes) do
   if node.x < reach then x[#x + 1], p[#p + 1] = node.x, node.pressure end

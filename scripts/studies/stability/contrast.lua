@@ -39,7 +39,7 @@ for k, name in ipairs(methods) do
   curves[name] = common.curve(common.method(name))
   series[k], most[name], same[name] = curves[name], 0, true
 end
-local refused = common.curve("not converged", { style = "points" })
+local refused = common.curve("not converged", { style = "points", crossed = true })
 local function deviation(s, contacts, top, C) -- of pressures and of the top's displacement from the closed form
   local _, uy = s:displacement(top, 0, 3)
   local error = math.abs(-uy / (1 - nu^2) / (2 + 1 / C) - 1)

@@ -13,7 +13,7 @@ local solver <const> = dotyk.solver
 local sizes <const> = { 8, 12, 16, 24, 32, 48, 96 } -- cells along the radius; LEVELS + 1 of them
 
 for _, case in ipairs{ { "", "energy", "Hertz's line contact" },
-  { "_pressure", hertz.line_error, "Hertz's line contact: pressure", "distance from the closed form in L2, relative" } } do
+  { "_pressure", hertz.line_error, "Hertz's line contact: pressure", "distance from the closed form in L², relative" } } do
   print(case[3])
   dotyk.work_precision{
     scene = function(level) return hertz.disc(sizes[level]) end,

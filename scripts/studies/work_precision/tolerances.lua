@@ -18,6 +18,6 @@ dotyk.work_precision{
   levels = 1, reference = exact,
   methods = { solver.newton(many), solver.projected_cg(many), solver.psor(many), solver.uzawa(many) },
   tolerances = { 1e-1, 1e-2, 1e-3, 1e-4, 1e-6, 1e-8, 1e-10 },
-  title = "Coulomb's friction on one mesh: tol 1e-1 to 1e-10",
+  title = "Coulomb's friction on one mesh: tol 10⁻¹ to 10⁻¹⁰",
   file = "images/work_precision_tolerances.png" }
 print(("what the mesh lacks, by the next finer one: %.1e"):format(exact:distance(dotyk.solve(scene(2 * n))).energy))
