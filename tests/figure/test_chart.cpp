@@ -180,7 +180,7 @@ TEST_CASE("each series has its colour; the legend does not hide a curve") {
   for (int k = 0; k < 7; ++k) CHECK(p.count(series_colour(k), 6) > 150);
 }
 
-TEST_CASE("texts too long for their places are broken and shortened, not cut off") {
+TEST_CASE("texts too long for their places are broken and shortened, not cut off; names in legends are refused") {
   const auto often = [](const std::string& words, int n) {
     std::string out;
     for (int i = 0; i < n; ++i) out += words;
@@ -192,19 +192,16 @@ TEST_CASE("texts too long for their places are broken and shortened, not cut off
       chart.printed = 120;
       chart.title = chart.x_label = chart.y_label = chart.series[0].name = often(words, n);
       chart.series[0].style = SeriesStyle::points;
-      draw(chart);
-      const Pixels p = read_png("long.png");
       CAPTURE(words);
       CAPTURE(n);
+      if (n > 2) CHECK(message_of([&] { draw(chart); }).find("is wider than its chart") != std::string::npos);
+      chart.series[0].name = words;
+      draw(chart);
+      const Pixels p = read_png("long.png");
       int cut = 0;
       for (int y = 0; y < p.height; ++y) cut += p.at(0, y).r < 200 || p.at(p.width - 1, y).r < 200;
       for (int x = 0; x < p.width; ++x) cut += p.at(x, 0).r < 200 || p.at(x, p.height - 1).r < 200;
       CHECK(cut == 0);
-      // The legend has its marker, above the plot where the name is long.
-      int above = 0;
-      for (int y = 0; y < 90; ++y)
-        for (int x = 0; x < p.width; ++x) above += near(p.at(x, y), series_colour(0));
-      if (n > 1) CHECK(above > 20);
     }
 }
 
