@@ -35,10 +35,16 @@ void place_between(const mesh::Mesh& whole, mesh::Mesh& pieces) {
 
 }  // namespace
 
-mesh::Mesh refined(const mesh::Mesh& mesh) {
-  mesh::Mesh cut = mesh::cut_at_nodes(mesh::second_order(mesh));
+mesh::Mesh refined(const mesh::Mesh& mesh, Monitor* watch) {
+  const auto go_on = [&] { if (watch) watch->check(); };
+  go_on();
+  mesh::Mesh second = mesh::second_order(mesh);
+  go_on();
+  mesh::Mesh cut = mesh::cut_at_nodes(second);
   if (mesh.topology().order == 1) return cut;
+  go_on();
   mesh::Mesh pieces = mesh::second_order(std::move(cut));
+  go_on();
   dispatch(mesh.element, [&]<class E>() {
     if constexpr (E::order == 2) place_between<E>(mesh, pieces);
   });

@@ -7,6 +7,7 @@
 #include "meshfile/load.hpp"
 #include "script/bind/bind.hpp"
 #include "script/bind/scene/space.hpp"
+#include "script/prompt/watch.hpp"
 
 namespace dotyk::script {
 namespace {
@@ -116,10 +117,11 @@ std::shared_ptr<MeshHandle> refined(Call& call) {
   using mesh::Family;
   require_room(mesh->cell_count() * pieces / (simplex && mesh->dimension() == 3 ? 6 : simplex ? 2 : 1), mesh->dimension(),
                simplex ? (second ? Family::p2 : Family::p1) : second ? Family::q2 : Family::q1);
-  constexpr double kMostNodes = 12e6;  // more than solvers of one machine take; refining them is not interrupted
+  constexpr double kMostNodes = 12e6;  // more than solvers of one machine take
   if (const double nodes = mesh->node_count() * pieces; nodes > kMostNodes)
     throw InputError(text("refined ", times, times == 1 ? " time" : " times", " the mesh would have about ", nodes, " nodes; at most ", kMostNodes, " are made"));
-  for (std::int64_t k = 0; k < times; ++k) mesh = std::make_shared<mesh::Mesh>(elasticity::refined(*mesh));
+  Watch watch(call.state(), "refining");
+  for (std::int64_t k = 0; k < times; ++k) mesh = std::make_shared<mesh::Mesh>(elasticity::refined(*mesh, &watch));
   return std::make_shared<MeshHandle>(MeshHandle{mesh});
 }
 
