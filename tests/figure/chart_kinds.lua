@@ -80,6 +80,9 @@ local far <const> = drawn{ y_break = { 3, 900 }, series = { { name = "p", x = { 
 local numbers = 0
 for _, it in ipairs(far.texts) do if it.words:match "^%d+$" and it.x < 150 then numbers = numbers + 1 end end
 check.that(far:text "1000" and far:text "2" and numbers < 9, "few numbers")
+local beyond <const> = drawn{ y_break = { 3, 90000 }, series = { { name = "p", x = { 1, 2, 3, 4 }, y = { 1, 2, 1e5, 1.1e5 } } } }
+check.that(beyond:text "100" and beyond:text "0.002", "one power of ten")
+wrong({ y_break = { 2, 90 }, notes = { { x = 2, y = 50, text = "yield" } }, series = { { x = { 1, 2 }, y = { 1, 100 } } } }, 'leaves out the point of the note "yield"')
 wrong({ y_break = { 1, 2 }, log = "y", series = { curve } }, "'y_break' from 1 to 2 on a logarithmic axis")
 wrong({ y_break = { 2, 1.5 }, series = { curve } }, "'y_break' from 2 to 1.5; the first must be the lesser")
 wrong({ y_break = { 2, 9 }, series = { curve } }, "must lie within the y axis, from 1 to 4")

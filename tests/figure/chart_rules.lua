@@ -105,6 +105,11 @@ local function uprights(colour)
 end
 local first <const>, second <const> = uprights(blue), uprights(orange)
 for k = 1, 2 do check.that(second[k] - first[k] > 10 and second[k] - first[k] < 40, "whiskers side by side") end
+-- On a logarithmic axis one that begins at zero comes from below.
+local below <const> = lines_of(drawn{ log = "y", series = { { name = "a", x = { 1, 2 }, y = { 1, 2 }, low = { 0, 1 }, high = { 3, 4 }, style = "points", bars = true } } }, blue)
+local whole = 0
+for _, mark in ipairs(below) do if mark.left == mark.right then whole = whole + 1 end end
+check.equal(whole, 3, "both whiskers and the legend's")
 -- Failures without an ordinate stand in a strip that says what they are; where there are none, its name alone is in the legend.
 local strip <const> = drawn{ strip = "out of memory", series = { curve, { name = "factors", x = { 2, 3 }, crossed = true } } }
 for _, word in ipairs{ "out", "of", "memory" } do check.that(strip:text(word) and strip:text(word).y < frame_of(strip).top, word) end

@@ -128,8 +128,13 @@ Ticks broken_ticks(const Axis& axis, double wanted) {
   };
   if (!one_scale) {
     Ticks out = part(axis.low, b.from, share * wanted, 2), upper = part(b.to, axis.high, (1 - share) * wanted, 1);
+    const int exponent = std::max(out.exponent, upper.exponent);
+    for (Ticks* own : {&out, &upper})
+      for (Tick& t : own->ticks)
+        if (own->exponent != exponent && !t.label.empty()) t.label = scaled_number(t.value, exponent);
+    out.exponent = exponent;
     std::ranges::copy(upper.ticks, std::back_inserter(out.ticks));
-    if (out.exponent == upper.exponent) return out;
+    return out;
   }
   const double least = std::max(3.0, wanted) * (axis.high - axis.low) / (below + above);
   for (double n = least;; n *= 1.3) {

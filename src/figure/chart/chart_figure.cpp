@@ -191,8 +191,10 @@ private:
   }
   // Beside the strip, one below the other.
   std::vector<std::string> strip_words() const {
+    constexpr std::size_t kMost = 3;
     std::istringstream words(failed_.empty() ? "" : picture_.strip_label);
-    return {std::istream_iterator<std::string>(words), {}};
+    std::vector<std::string> out{std::istream_iterator<std::string>(words), {}};
+    return out.size() > kMost ? fitted(picture_.strip_label, small_text * em_, text_extent(picture_.strip_label, small_text * em_).x / 2.5).lines : out;
   }
 
   // Above a break of the y axis: where there is no ordinate.

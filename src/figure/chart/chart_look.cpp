@@ -63,6 +63,7 @@ std::vector<std::string> names_with_colours(const std::vector<SeriesPicture>& se
 }
 
 bool all_different(std::vector<std::string> names) {
+  std::ranges::transform(names, names.begin(), identifier);
   std::ranges::sort(names);
   return std::ranges::adjacent_find(names) == names.end();
 }

@@ -53,21 +53,28 @@ void stroke_within(Canvas& canvas, const Box& room, const std::vector<Point>& cu
 
 }  // namespace
 
+namespace {
+
+double least_shown(const Axis& axis) { return std::max(axis.low * 1e-6, std::numeric_limits<double>::denorm_min()); }
+
+}  // namespace
+
 // The axes of a series, moved aside in pixels where other series have whiskers at the same x: they stand side by side.
 Axes SeriesDrawing::axes_of(const SeriesPicture& s) const {
-  constexpr double kStep = 0.55, kShare = 0.6;  // em; of the way to the next x
+  constexpr double kStep = 0.55, kMost = 1.65, kShare = 0.6;  // em, of all together, and of the way to the next x
   Axes axes = axes_.of(s);
-  if (!s.bars || axes.pole) return axes;
+  if (!s.bars || axes.pole || !s.x_low.empty()) return axes;
   double before = 0, all = 0, apart = INFINITY;
   for (const Look& look : looks_) {
     const SeriesPicture& other = look.data;
     if (!other.bars || std::ranges::none_of(other.x, [&](double x) { return std::ranges::find(s.x, x) != s.x.end(); })) continue;
     if (&other == &s) before = all;
     ++all;
+    for (const double x : s.x)
+      for (const double next : other.x)
+        if (const double way = std::abs(axes.x.pixel(x) - axes.x.pixel(next)); way > 1e-6) apart = std::min(apart, way);
   }
-  for (std::size_t i = 1; i < s.x.size(); ++i)
-    if (const double way = std::abs(axes.x.pixel(s.x[i]) - axes.x.pixel(s.x[i - 1])); way > 0) apart = std::min(apart, way);
-  const double aside = (before - (all - 1) / 2) * std::min(kStep * pen_.em, kShare * apart / all);
+  const double aside = (before - (all - 1) / 2) * std::min({kStep * pen_.em, kMost * pen_.em / all, kShare * apart / all});
   axes.x.from += aside, axes.x.to += aside;
   return axes;
 }
@@ -77,6 +84,9 @@ std::vector<std::array<Point, 2>> SeriesDrawing::whiskers(const SeriesPicture& s
   const Axes axes = axes_of(s);
   std::vector<std::array<Point, 2>> out;
   const auto add = [&](Point low, Point high) {
+    // On a logarithmic axis from beyond its lower end.
+    if (axes.x.log) low.x = std::max(low.x, least_shown(axes.x));
+    if (axes.y.log) low.y = std::max(low.y, least_shown(axes.y));
     for (const Point& p : {low, high})
       if (!axes.x.shows(p.x) || !axes.y.shows(p.y)) return;
     out.push_back({axes.at(low.x, low.y), axes.at(high.x, high.y)});
@@ -108,11 +118,14 @@ void SeriesDrawing::draw_band(const Look& look) {
   const SeriesPicture& s = look.data;
   const Axes axes = axes_of(s);
   if (s.low.empty() || s.bars) return;
-  const double least = std::max(axes.y.low * 1e-6, std::numeric_limits<double>::denorm_min());
-  const auto at = [&](std::size_t i, double v) { return axes.at(s.x[i], axes.y.log ? std::max(v, least) : v); };
+  const int parts = axes.y.left_out ? 200 : 1;  // it bends at a break
+  const auto at = [&](std::size_t i, int part, const std::vector<double>& value) {
+    const auto between = [&](const std::vector<double>& v) { return part == 0 ? v[i] : part == parts ? v[i + 1] : v[i] + (v[i + 1] - v[i]) * part / parts; };
+    return axes.at(between(s.x), axes.y.log ? std::max(between(value), least_shown(axes.y)) : between(value));
+  };
   for (std::size_t i = 0; i + 1 < s.x.size(); ++i)
-    if (axes.x.shows(s.x[i]) && axes.x.shows(s.x[i + 1]))
-      canvas_.convex(std::array{at(i, s.low[i]), at(i + 1, s.low[i + 1]), at(i + 1, s.high[i + 1]), at(i, s.high[i])}, look.colour, 0.2);
+    for (int k = 0; k < parts && axes.x.shows(s.x[i]) && axes.x.shows(s.x[i + 1]); ++k)
+      canvas_.convex(std::array{at(i, k, s.low), at(i, k + 1, s.low), at(i, k + 1, s.high), at(i, k, s.high)}, look.colour, 0.2);
 }
 
 // No line is hidden: where one lies beneath later ones it shows as dashes on them, the deeper the farther apart, so that those above it show between.

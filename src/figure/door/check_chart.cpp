@@ -66,6 +66,8 @@ void check_break(const ChartPicture& p) {
     for (const double y : s.y)
       if (std::isfinite(y)) least = std::min(least, y), most = std::max(most, y);
   }
+  for (const ChartNote& note : p.notes)
+    if (note.y > from && note.y < to) throw InputError(text(what, " leaves out the point of the note \"", note.text, "\", y = ", note.y));
   if (p.y_range) least = (*p.y_range)[0], most = (*p.y_range)[1];
   if (!(least < from && most > to)) throw InputError(text(what, " must lie within the y axis, from ", least, " to ", most));
 }

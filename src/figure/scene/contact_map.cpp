@@ -127,19 +127,21 @@ std::optional<Circle> circle_through(const std::vector<Point>& points) {
   return on ? std::optional(circle) : std::nullopt;
 }
 
-// Of points about a centre: the direction opposite to the middle of the gap between them, if it is much wider than the next widest; or none.
+// Of points about a centre: the direction opposite to the middle of the widest gap between them, if it is much wider than most; or none.
 std::optional<double> opposite_of_gap(const std::vector<Point>& points, Point centre) {
-  constexpr double kWider = 1.5;
-  std::vector<double> angles;
+  constexpr double kWider = 3, kSame = 1e-6;
+  std::vector<double> angles, gaps;
   for (const Point& p : points) angles.push_back(std::atan2(p.y - centre.y, p.x - centre.x));
   std::ranges::sort(angles);
-  double widest = 0, second = 0, middle = 0;
+  double widest = 0, middle = 0;
   for (std::size_t k = 0; k < angles.size(); ++k) {
     const double next = k + 1 < angles.size() ? angles[k + 1] : angles[0] + 2 * std::numbers::pi, gap = next - angles[k];
-    if (gap > widest) second = widest, widest = gap, middle = (angles[k] + next) / 2;
-    else second = std::max(second, gap);
+    if (gap > kSame) gaps.push_back(gap);
+    if (gap > widest) widest = gap, middle = (angles[k] + next) / 2;
   }
-  return widest > kWider * second ? std::optional(middle + std::numbers::pi) : std::nullopt;
+  if (gaps.empty()) return std::nullopt;
+  std::ranges::nth_element(gaps, gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() / 2));
+  return widest > kWider * gaps[gaps.size() / 2] ? std::optional(middle + std::numbers::pi) : std::nullopt;
 }
 
 // A surface of straight lines, unrolled; none where its profile is neither a graph seen along the mean normal nor on a circle.
