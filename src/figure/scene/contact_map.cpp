@@ -127,8 +127,8 @@ std::optional<Circle> circle_through(const std::vector<Point>& points) {
   return on ? std::optional(circle) : std::nullopt;
 }
 
-// Of points about a centre: the direction opposite to the middle of the widest gap between them, if it is much wider than most; or none.
-std::optional<double> opposite_of_gap(const std::vector<Point>& points, Point centre) {
+// Of points about a centre: the direction opposite to the middle of the widest gap between them, if it is much wider than most.
+double opposite_of_gap(const std::vector<Point>& points, Point centre, double otherwise) {
   constexpr double kWider = 3, kSame = 1e-6;
   std::vector<double> angles, gaps;
   for (const Point& p : points) angles.push_back(std::atan2(p.y - centre.y, p.x - centre.x));
@@ -139,9 +139,9 @@ std::optional<double> opposite_of_gap(const std::vector<Point>& points, Point ce
     if (gap > kSame) gaps.push_back(gap);
     if (gap > widest) widest = gap, middle = (angles[k] + next) / 2;
   }
-  if (gaps.empty()) return std::nullopt;
+  if (gaps.empty()) return otherwise;
   std::ranges::nth_element(gaps, gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() / 2));
-  return widest > kWider * gaps[gaps.size() / 2] ? std::optional(middle + std::numbers::pi) : std::nullopt;
+  return widest > kWider * gaps[gaps.size() / 2] ? middle + std::numbers::pi : otherwise;
 }
 
 // A surface of straight lines, unrolled; none where its profile is neither a graph seen along the mean normal nor on a circle.
@@ -163,8 +163,7 @@ std::optional<Flat> unrolled(const ContactPicture& contact, const Vec3& lines) {
     if (!circle) return std::nullopt;
     const double side = dot(unit(contact.nodes.front().normal), plus(plus({0, 0, 0}, t, profile[0].x - circle->centre.x), middle, profile[0].y - circle->centre.y)) < 0 ? -1 : 1;
     const auto from_middle = [&](Point p) { return std::atan2(p.x - circle->centre.x, side * (p.y - circle->centre.y)); };
-    const std::optional<double> open = opposite_of_gap(profile, circle->centre);
-    const double zero = open ? from_middle(circle->centre + Point{std::cos(*open), std::sin(*open)}) : 0;
+    const double direction = opposite_of_gap(profile, circle->centre, side * std::numbers::pi / 2), zero = from_middle(circle->centre + Point{std::cos(direction), std::sin(direction)});
     for (const Point& p : profile) {
       const double angle = std::remainder(from_middle(p) - zero, 2 * std::numbers::pi);
       arc.push_back(circle->radius * (angle > (1 - 1e-9) * std::numbers::pi ? -std::numbers::pi : angle));  // at the cut, where rounding decides
