@@ -37,10 +37,9 @@ void place_between(const mesh::Mesh& whole, mesh::Mesh& pieces) {
 
 mesh::Mesh refined(const mesh::Mesh& mesh, Monitor* watch) {
   const auto go_on = [&] { if (watch) watch->check(); };
-  go_on();
   mesh::Mesh second = mesh::second_order(mesh);
   go_on();
-  mesh::Mesh cut = mesh::cut_at_nodes(second);
+  mesh::Mesh cut = mesh::cut_at_nodes(std::move(second));
   if (mesh.topology().order == 1) return cut;
   go_on();
   mesh::Mesh pieces = mesh::second_order(std::move(cut));

@@ -40,12 +40,14 @@ class Between {
   Owned<VecScatter, VecScatterDestroy> fetch_;
 };
 
-/// Of a symmetric tridiagonal matrix T: by bisection, since all pivots of T − x are negative above it alone.
+/// The greatest eigenvalue of a symmetric tridiagonal matrix T, or 0 if that is negative. By bisection: T − x has only negative pivots exactly if x is
+/// greater than all eigenvalues.
 double greatest_eigenvalue(const std::vector<double>& diagonal, const std::vector<double>& beside) {
-  double high = 0;
+  double bound = 0;
   for (const auto* entries : {&diagonal, &beside})
-    for (const double entry : *entries) high = std::max(high, 3 * std::abs(entry));
-  for (double low = -high; high - low > 1e-3 * high;) {
+    for (const double entry : *entries) bound = std::max(bound, 3 * std::abs(entry));
+  double high = bound;
+  for (double low = 0; high - low > 1e-4 * bound;) {
     const double x = (low + high) / 2;
     double pivot = diagonal[0] - x;
     bool above = pivot < 0;
@@ -55,8 +57,8 @@ double greatest_eigenvalue(const std::vector<double>& diagonal, const std::vecto
   return high;
 }
 
-/// D^−1/2, but zero at the rows that are left out.
-OwnedVec scaling(Mat A, const std::vector<int>& but) {
+/// The diagonal of D^−1/2, with zeros at the rows `left_out`.
+OwnedVec scaling(Mat A, const std::vector<int>& left_out) {
   OwnedVec out;
   PetscScalar* of = nullptr;
   check(MatCreateVecs(A, out.put(), nullptr));
@@ -64,7 +66,7 @@ OwnedVec scaling(Mat A, const std::vector<int>& but) {
   check(VecSqrtAbs(out));
   check(VecReciprocal(out));
   check(VecGetArray(out, &of));
-  for (const int row : but) of[row] = 0;
+  for (const int row : left_out) of[row] = 0;
   check(VecRestoreArray(out, &of));
   return out;
 }

@@ -67,7 +67,7 @@ for _, colour in ipairs{ blue, orange, "#009e73" } do
     broadest = math.max(broadest, mark.bottom - mark.top)
   end
   check.that(broadest > 1, "drawn")
-  for _, mark in ipairs(lines_of(zero, colour)) do check.that(mark.bottom + (mark.dashed and 0 or mark.width / 2) <= frame.bottom + 0.1, "inside") end
+  for _, mark in ipairs(lines_of(zero, colour)) do check.that(mark.bottom + mark.width / 2 <= frame.bottom + 0.1, "inside") end
 end
 -- Markers of one place are nested, those above smaller than alone, and none much larger.
 local function spots(name, at) return { name = name, x = at, y = at, style = "points" } end

@@ -195,13 +195,23 @@ TEST_CASE("texts too long for their places are broken and shortened, not cut off
       CAPTURE(words);
       CAPTURE(n);
       if (n > 2) CHECK(message_of([&] { draw(chart); }).find("is wider than its chart") != std::string::npos);
-      chart.series[0].name = words;
+      chart.series[0].name = n > 1 ? words + words.substr(0, words.size() / 2) : words;
       draw(chart);
       const Pixels p = read_png("long.png");
       int cut = 0;
       for (int y = 0; y < p.height; ++y) cut += p.at(0, y).r < 200 || p.at(p.width - 1, y).r < 200;
       for (int x = 0; x < p.width; ++x) cut += p.at(x, 0).r < 200 || p.at(x, p.height - 1).r < 200;
       CHECK(cut == 0);
+      // The legend has its marker, above the plot where the name is long.
+      const auto is_frame = [&](int y) {
+        int dark = 0;
+        for (int x = 0; x < p.width; ++x) dark += p.at(x, y).r < 60;
+        return dark > p.width / 2;
+      };
+      int above = 0;
+      for (int y = 0; y < p.height && !is_frame(y); ++y)
+        for (int x = 0; x < p.width; ++x) above += near(p.at(x, y), series_colour(0));
+      if (n > 1) CHECK(above > 20);
     }
 }
 

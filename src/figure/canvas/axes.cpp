@@ -24,7 +24,7 @@ Axis part_of(const Axis& axis, double value) {
 
 double hair(double em) { return std::max(1.0, em / 24); }
 
-// Labels so many em apart.
+// Do all labels have room, `apart` em from each other at least?
 bool fit(const Ticks& ticks, const Axis& axis, double em, double apart = 0.8) {
   double last = -1e9;
   for (const Tick& t : ticks.ticks) {

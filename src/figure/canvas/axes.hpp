@@ -43,7 +43,7 @@ std::string number(double value, int digits = 3);
 // power of ten; what is nearer to zero than 0.001 is said to be so.
 std::string scaled_number(double value, int exponent, int digits = 3);
 
-// "load, at most 12.3 × 10⁶ N": with a power of ten where an axis has one.
+// "load, at most 12.3 × 10⁶ N". It has a power of ten if an axis up to this value has one.
 std::string at_most(const std::string& what, double value, const std::string& unit);
 
 inline constexpr Colour reference_grey{90, 90, 90};
@@ -102,7 +102,7 @@ void draw_frame(Canvas& canvas, const Axes& axes);
 double widest_label(const Ticks& ticks, double size);
 // Ticks for so many labels, or a few more: at least four of them labelled, or two where less than 2.3 are wanted, as there is no room for four.
 Ticks few_ticks(double low, double high, double wanted, double plain = 1e-3);
-// Of the height of a broken axis the part below its break: in proportion, unless one of the parts would then be very low.
+// The share of a broken axis's height that lies below the break: that of the values shown there, but from 0.2 to 0.8, so that neither part is very low.
 double share_below(const Axis& axis);
 // Of a broken axis: about so many labels on what is not left out, at least one above and two below it.
 Ticks broken_ticks(const Axis& axis, double wanted);

@@ -56,7 +56,7 @@ double width_of(const std::string& text, double size, bool bold) {
   return extent.x_advance;
 }
 
-// Of the character that begins here: Latin and Greek letters have two bytes, signs as ‖ and − three.
+// Is the character that begins here part of a word? In UTF-8 Latin and Greek letters have two bytes, signs as ‖ and − three.
 bool is_word(const std::string& text, std::size_t at) {
   const auto c = static_cast<unsigned char>(text[at]);
   return std::isalnum(c) || c == '_' || (c >= 0xc3 && c < 0xe0);
@@ -73,7 +73,8 @@ struct Index {
   std::string text;
 };
 
-// Finds the next: a single letter, "_", and one to five letters or digits; or anything, "_", and what stands in braces.
+// Finds the next index: after "_" either any text in braces, or one to five letters or digits. The latter counts only after a single letter,
+// so that names of methods stay as they are.
 std::optional<Index> find_index(const std::string& text, std::size_t from) {
   for (std::size_t bar = text.find('_', from); bar != std::string::npos; bar = text.find('_', bar + 1)) {
     if (const std::size_t close = text.find('}', bar); text[bar + 1] == '{' && close != std::string::npos) return Index{bar, close + 1, text.substr(bar + 2, close - bar - 2)};

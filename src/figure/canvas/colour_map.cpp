@@ -163,7 +163,7 @@ double colour_bar_width(const ColourScale& scale, const FieldLabel& field, doubl
 }
 
 double least_bar_height(const ColourScale& scale, const FieldLabel& field, double em, double width) {
-  constexpr double kBox = 6;
+  constexpr double kBox = 6;  // em, of the colours
   const int tips = (scale.least < scale.low) + (scale.greatest > scale.high);
   return (kBox + tip * tips + 2 * (ends + 1.0) + 1.3) * em + fitted(label(field, bar_ticks(scale).exponent), em, width).depth();
 }

@@ -30,9 +30,9 @@ std::string trimmed(std::string text) {
   return text;
 }
 
-constexpr double plain_below = 0.9e5;
+constexpr double plain_below = 0.9e5;  // numbers below have no power of ten
 
-// Thousands and millionths, as engineers write them; 0.95e6 counts as 1e6.
+// The exponent of a power of 1000 for numbers up to this one. 0.95e6 is already written with 10⁶.
 int exponent_of(double greatest) { return 3 * static_cast<int>(std::floor((std::log10(greatest) + 0.05) / 3)); }
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include <numeric>
 
 #include "base/error.hpp"
-
 #include "figure/chart/chart_map.hpp"
 
 namespace dotyk::figure {
@@ -27,7 +26,8 @@ std::string identifier(std::string name) {
   return name;
 }
 
-// For each of these names its place: that among the methods, however written; others take, in their order, the first colours that no method here has.
+// The place of each name. A method, however its name is written, has its place among the methods; the other names take, in their order, the first
+// places whose colour none of these methods has.
 std::vector<int> places_of(const std::vector<std::string>& names) {
   std::vector<int> places;
   std::vector<bool> taken(methods.size() + names.size() + series_colours, false);
@@ -45,7 +45,7 @@ std::vector<int> places_of(const std::vector<std::string>& names) {
   return places;
 }
 
-// The place of the same name before the i-th series, on the other y axis or of runs that failed, or that did not: it has its colour too; or none.
+// The series before the i-th that has the same name and differs in the y axis, or in whether its runs failed: both have one colour. Or none.
 std::optional<std::size_t> same_before(const std::vector<SeriesPicture>& series, std::size_t i) {
   const SeriesPicture& s = series[i];
   for (std::size_t k = 0; k < i; ++k) {
@@ -72,7 +72,7 @@ bool has_statuses(const ChartPicture& picture) {
   return std::ranges::any_of(picture.series, [](const SeriesPicture& s) { return s.status.has_value(); });
 }
 
-// Of every series, counted from 0. Reference curves, statuses and twins take no place of their own, so the k-th of the others keeps its own.
+// The place of each series in the list of colours and markers, counted from 0. Reference curves, statuses and twins do not count.
 std::vector<int> places(const ChartPicture& picture) {
   const std::vector<std::string> names = names_with_colours(picture.series);
   std::vector<int> own(names.size()), out;
@@ -199,10 +199,6 @@ LegendEntry entry(const std::string& name, const Look& look, double em) {
   const bool marker = !has_line(s) && !s.front && (s.low.empty() || s.bars);
   return {name, [pen = Pen{em}, look](Canvas& canvas, const Box& box) { pen.sample(canvas, look, box); }, marker ? kMarker : kLine};
 }
-
-}  // namespace
-
-namespace {
 
 void check_width(const std::vector<LegendEntry>& entries, double em, double width) {
   for (const LegendEntry& entry : entries)

@@ -17,10 +17,10 @@ struct Look {
 
 // Of every series, in their order.
 std::vector<Look> looks(const ChartPicture& picture);
-// Gives a name one colour and marker in all panels, and different names different ones, where there are colours for all.
+// Gives each name the same colour and marker in all panels, unless there are more names than colours.
 void share_looks(std::vector<ChartPicture>& panels);
 
-// Of a line from point to point; a front is none.
+// Does the series have a line from point to point? The broad line of a front does not count.
 bool has_line(const SeriesPicture& s);
 
 // Have reference curves their names beside them, not in the legend? Where several have a name: in a legend they look alike.

@@ -1,6 +1,8 @@
 #include "figure/chart/chart_series.hpp"
 
+#include <iterator>
 #include <limits>
+#include <set>
 #include <utility>
 
 #include "figure/chart/hidden.hpp"
@@ -51,29 +53,27 @@ void stroke_within(Canvas& canvas, const Box& room, const std::vector<Point>& cu
   finish();
 }
 
-}  // namespace
-
-namespace {
-
+// What is less than this on a logarithmic axis is drawn here, below the plot.
 double least_shown(const Axis& axis) { return std::max(axis.low * 1e-6, std::numeric_limits<double>::denorm_min()); }
 
 }  // namespace
 
-// The axes of a series, moved aside in pixels where other series have whiskers at the same x: they stand side by side.
+// The axes of a series. If several series have whiskers at the same x, each of these is moved aside by some pixels, so that the whiskers stand side by side.
 Axes SeriesDrawing::axes_of(const SeriesPicture& s) const {
   constexpr double kStep = 0.55, kMost = 1.65, kShare = 0.6;  // em, of all together, and of the way to the next x
   Axes axes = axes_.of(s);
   if (!s.bars || axes.pole || !s.x_low.empty()) return axes;
+  const std::set<double> own(s.x.begin(), s.x.end());
+  std::set<double> at;
   double before = 0, all = 0, apart = INFINITY;
   for (const Look& look : looks_) {
     const SeriesPicture& other = look.data;
-    if (!other.bars || std::ranges::none_of(other.x, [&](double x) { return std::ranges::find(s.x, x) != s.x.end(); })) continue;
+    if (!other.bars || std::ranges::none_of(other.x, [&](double x) { return own.contains(x); })) continue;
     if (&other == &s) before = all;
     ++all;
-    for (const double x : s.x)
-      for (const double next : other.x)
-        if (const double way = std::abs(axes.x.pixel(x) - axes.x.pixel(next)); way > 1e-6) apart = std::min(apart, way);
+    at.insert(other.x.begin(), other.x.end());
   }
+  for (auto x = at.begin(); x != at.end() && std::next(x) != at.end(); ++x) apart = std::min(apart, axes.x.pixel(*std::next(x)) - axes.x.pixel(*x));
   const double aside = (before - (all - 1) / 2) * std::min({kStep * pen_.em, kMost * pen_.em / all, kShare * apart / all});
   axes.x.from += aside, axes.x.to += aside;
   return axes;
@@ -84,7 +84,7 @@ std::vector<std::array<Point, 2>> SeriesDrawing::whiskers(const SeriesPicture& s
   const Axes axes = axes_of(s);
   std::vector<std::array<Point, 2>> out;
   const auto add = [&](Point low, Point high) {
-    // On a logarithmic axis from beyond its lower end.
+    // Zero and less have no place on a logarithmic axis: the whisker comes from below the plot.
     if (axes.x.log) low.x = std::max(low.x, least_shown(axes.x));
     if (axes.y.log) low.y = std::max(low.y, least_shown(axes.y));
     for (const Point& p : {low, high})
@@ -128,11 +128,12 @@ void SeriesDrawing::draw_band(const Look& look) {
       canvas_.convex(std::array{at(i, k, s.low), at(i, k + 1, s.low), at(i, k + 1, s.high), at(i, k, s.high)}, look.colour, 0.2);
 }
 
-// No line is hidden: where one lies beneath later ones it shows as dashes on them, the deeper the farther apart, so that those above it show between.
+// Where a line lies beneath later ones, dashes of it are drawn on top of them. The deeper it lies, the longer are the gaps, so that all stay visible.
 void SeriesDrawing::draw_lines() {
   constexpr int kDeepest = 3;
   const double width = pen_.line_width(), near = 0.75 * width, dash = 0.5 * pen_.em, least = 3 * pen_.em;
   const Box& room = axes_.left.room;
+  const Box inner = room.grown(-width / 2);  // a dash here does not reach beyond the frame
   std::vector<std::vector<std::vector<Point>>> lines;
   std::vector<Neighbourhood> solid;  // about those that hide what is beneath
   std::vector<std::size_t> of;       // whose they are
@@ -148,8 +149,10 @@ void SeriesDrawing::draw_lines() {
   for (std::size_t k = looks_.size(); k-- > 0;) {
     const std::vector<Neighbourhood> later(solid.begin() + (std::ranges::upper_bound(of, k) - of.begin()), solid.end());
     for (const auto& curve : lines[k])
-      for (const HiddenPart& part : hidden_parts(curve, later, room, least))
+      for (HiddenPart& part : hidden_parts(curve, later, room, least)) {
+        for (Point& p : part.points) p = {std::clamp(p.x, inner.left, inner.right), std::clamp(p.y, inner.bottom, inner.top)};
         canvas_.polyline(without_straight(part.points), width, looks_[k].colour, std::array{dash, ((1 << std::min(part.depth, kDeepest)) - 1) * dash});
+      }
   }
 }
 

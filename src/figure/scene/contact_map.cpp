@@ -127,7 +127,7 @@ std::optional<Circle> circle_through(const std::vector<Point>& points) {
   return on ? std::optional(circle) : std::nullopt;
 }
 
-// Of points about a centre: the direction opposite to the middle of the widest gap between them, if it is much wider than most.
+// The middle of an open arc of points: the direction from the centre that is opposite to the widest gap. `otherwise`, if that is not much wider than most.
 double opposite_of_gap(const std::vector<Point>& points, Point centre, double otherwise) {
   constexpr double kWider = 3, kSame = 1e-6;
   std::vector<double> angles, gaps;

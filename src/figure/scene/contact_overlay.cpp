@@ -85,7 +85,7 @@ std::vector<Run> runs(const ContactPicture& contact, const std::vector<Point>& a
 
 constexpr double marker_size = 0.55, least_marker = 0.3;  // em
 
-// Has one of its statuses room for a marker?
+// Does any run of one status get a marker?
 bool is_marked(const Stage& stage, const ContactPicture& contact) {
   return !is_short(stage, contact) || std::ranges::any_of(runs(contact, stage.at(contact.nodes)), [&](const Run& run) { return run.length >= least_marker * stage.em; });
 }
@@ -144,7 +144,7 @@ std::array<Point, 2> shear_arrow(const Stage& stage, const ContactNode& node) {
   return {middle - half * t, middle + half * t};
 }
 
-// The nodes whose shear is worth an arrow that is seen whole.
+// The nodes that may have an arrow: their shear is not small, and the whole arrow is in the picture.
 std::vector<std::size_t> rubbing_nodes(const Stage& stage, const ContactPicture& contact, const std::function<Segment(std::size_t node)>& arrow) {
   std::vector<std::size_t> out;
   for (std::size_t i = 0; i < contact.nodes.size(); ++i)
@@ -306,7 +306,7 @@ std::vector<Segment> shear_arrows(const Stage& stage, const ContactPicture& cont
     if (stage.shows(places[k], 0.4 * stage.em)) seen.push_back(k);
   const auto size = [&](std::size_t k) { return length(contact.nodes[rubbing[k]].shear); };
   keep_greatest(chosen, seen, places, size);
-  // What rubs the other way has an arrow too.
+  // Shear in the opposite direction has an arrow, too.
   const auto against = [&](std::size_t k, std::size_t j) { return dot(contact.nodes[rubbing[k]].shear, contact.nodes[rubbing[j]].shear) < 0; };
   std::ranges::sort(seen, std::greater{}, size);
   for (const std::size_t k : seen)

@@ -148,7 +148,7 @@ std::optional<ScenePicture> inset_of(const ScenePicture& picture, const ColourSc
   ScenePicture map = contact_map(*contact);
   const double em = letters(picture);
   map.file = picture.file, map.title = "contact " + contact->name;
-  // A field of contacts is hidden between bodies: the inset is then what shows it.
+  // A field of contacts is hidden between the bodies, so its inset is larger.
   const auto [most, share] = contact->values.empty() ? std::tuple{14.0, 0.36} : std::tuple{20.0, 0.45};
   map.width = static_cast<int>(std::min(most * em, share * picture.width));
   map.printed = printed_width(picture) * map.width / picture.width;

@@ -81,8 +81,8 @@ std::vector<std::vector<std::size_t>> regions(const ContactPicture& contact) {
   return out;
 }
 
-// On a field statuses are told by markers, and by lines between them. Each region has a marker, the nearest of its nodes to its middle where no other is on it;
-// beside arrows if there is room.
+// On a field statuses are told by markers, and by lines between them. A region without a marker gets one at the node nearest to its middle, if possible
+// at a node that no arrow covers.
 void draw_markers(Stage& stage, const ContactPicture& contact, const std::vector<Point>& at, const std::vector<Segment>& arrows) {
   const auto covered = [&](std::size_t i) {
     return std::ranges::any_of(arrows, [&](const Segment& arrow) { return distance(arrow, at[i]) < 0.45 * map_marker * stage.em || length(arrow[1] - at[i]) < 0.5 * (map_marker + shear_head) * stage.em; });

@@ -115,7 +115,6 @@ void support_bounds(const Stage& stage, Bounds& bounds) {
   for (const SupportSymbol& s : stage.picture.supports) bounds.add(stage.at(s) + 1.35 * support_size * stage.em * stage.view.direction(s.normal));
 }
 
-
 // Where a load arrow begins and ends: pixels, the third towards the eye.
 std::array<Vec3, 2> load_arrow_in_space(const Stage& stage, const LoadArrow& load) {
   const Vec3 at = stage.view.pixel(stage.place(load));

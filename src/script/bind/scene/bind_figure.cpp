@@ -82,18 +82,22 @@ figure::ChartMap map_of(const Arguments& given) {
 
 /// Says on standard error what the axes cannot show: "2 of 5 points of 'error'".
 void tell_not_shown(const figure::ChartPicture& picture, const std::string& file) {
+  const auto has_place = [&](double x, std::optional<double> y) {
+    const bool in_break = y && picture.y_break && *y > (*picture.y_break)[0] && *y < (*picture.y_break)[1];
+    return !(picture.log_x && x <= 0) && !(picture.log_y && y && *y <= 0) && !in_break;
+  };
   std::string out;
   for (std::size_t k = 0; k < picture.series.size(); ++k) {
     const figure::SeriesPicture& series = picture.series[k];
     std::size_t lost = 0;
-    for (std::size_t i = 0; i < series.x.size(); ++i)
-      lost += (picture.log_x && series.x[i] <= 0) || (!series.y.empty() && ((picture.log_y && series.y[i] <= 0) || (picture.y_break && series.y[i] > (*picture.y_break)[0] && series.y[i] < (*picture.y_break)[1])));
+    for (std::size_t i = 0; i < series.x.size(); ++i) lost += !has_place(series.x[i], series.y.empty() ? std::nullopt : std::optional(series.y[i]));
     if (lost == 0) continue;
     out += text(out.empty() ? "" : ", ", lost, " of ", series.x.size(), " points of ");
     out += series.name.empty() ? text("series ", k + 1) : "'" + series.name + "'";
   }
-  if (!out.empty())
-    std::fprintf(stderr, "dotyk: %s: %s; left out: %s\n", file.c_str(), picture.y_break ? "'y_break' leaves out values" : "zero and negative values have no place on a logarithmic axis", out.c_str());
+  const bool log = picture.log_x || picture.log_y;
+  const std::string why = text(log ? "zero and negative values have no place on a logarithmic axis" : "", log && picture.y_break ? ", nor have those in 'y_break'" : picture.y_break ? "values in 'y_break' have no place on its axis" : "");
+  if (!out.empty()) std::fprintf(stderr, "dotyk: %s: %s; left out: %s\n", file.c_str(), why.c_str(), out.c_str());
 }
 
 std::array<double, 2> range_of(const Arguments& given, const char* name) {
