@@ -82,11 +82,12 @@ std::vector<std::vector<std::size_t>> regions(const ContactPicture& contact) {
 }
 
 // On a field statuses are told by markers, and by lines between them. A region without a marker gets one at the node nearest to its middle, if possible
-// at a node that no arrow covers.
-void draw_markers(Stage& stage, const ContactPicture& contact, const std::vector<Point>& at, const std::vector<Segment>& arrows) {
-  const auto covered = [&](std::size_t i) {
-    return std::ranges::any_of(arrows, [&](const Segment& arrow) { return distance(arrow, at[i]) < 0.45 * map_marker * stage.em || length(arrow[1] - at[i]) < 0.5 * (map_marker + shear_head) * stage.em; });
+// at a node that no arrow covers; else an arrow gives way to it.
+void draw_markers(Stage& stage, const ContactPicture& contact, const std::vector<Point>& at, std::vector<Segment>& arrows) {
+  const auto covers = [&](const Segment& arrow, std::size_t i) {
+    return distance(arrow, at[i]) < 0.45 * map_marker * stage.em || length(arrow[1] - at[i]) < 0.5 * (map_marker + shear_head) * stage.em;
   };
+  const auto covered = [&](std::size_t i) { return std::ranges::any_of(arrows, [&](const Segment& arrow) { return covers(arrow, i); }); };
   std::vector<std::size_t> marked = apart(stage, at, map_spacing * stage.em);
   std::erase_if(marked, covered);
   const std::set<std::size_t> spaced(marked.begin(), marked.end());
@@ -97,7 +98,9 @@ void draw_markers(Stage& stage, const ContactPicture& contact, const std::vector
     for (const std::size_t i : region)
       if (stage.shows(at[i], 0.3 * stage.em)) seen.push_back(i), bounds.add(at[i]);
     if (const auto hidden = std::ranges::stable_partition(seen, std::not_fn(covered)); hidden.begin() != seen.begin()) seen.erase(hidden.begin(), hidden.end());
-    if (!seen.empty()) marked.push_back(*std::ranges::min_element(seen, {}, [&](std::size_t i) { return length(at[i] - bounds.centre()); }));
+    if (seen.empty()) continue;
+    marked.push_back(*std::ranges::min_element(seen, {}, [&](std::size_t i) { return length(at[i] - bounds.centre()); }));
+    if (arrows.size() > 1) std::erase_if(arrows, [&](const Segment& arrow) { return covers(arrow, marked.back()); });
   }
   for (const std::size_t i : marked) {
     const Status status = contact.nodes[i].status;
@@ -128,7 +131,7 @@ void draw_contact_map(Stage& stage, const ContactPicture& contact) {
   for (const auto& [a, b] : pairs(rim({contact.facets, contact.nodes_per_facet}))) stage.over.line(at[a], at[b], std::max(1.2, stage.em / 18), axes_ink);
   field ? draw_borders(stage, contact, at) : draw_pressure(stage, contact, at);
   // From the nodes, or from the rims of markers there.
-  const std::vector<Segment> arrows = shear_arrows(stage, contact, at, [&](const std::vector<Point>& places) { return spread(places, places, map_spacing * stage.em); }, [&](std::size_t i) {
+  std::vector<Segment> arrows = shear_arrows(stage, contact, at, [&](const std::vector<Point>& places) { return spread(places, places, map_spacing * stage.em); }, [&](std::size_t i) {
     const Point shear{contact.nodes[i].shear[0], contact.nodes[i].shear[1]}, tail = at[i] + (field ? 0.5 * map_marker * stage.em / std::max(length(shear), 1e-300) : 0) * shear;
     return Segment{tail, tail + longest_arrow * stage.em / stage.greatest_shear * shear};
   });
