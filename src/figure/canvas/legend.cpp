@@ -27,7 +27,10 @@ Legend::Legend(std::vector<LegendEntry> entries, double em, double rows_within_p
   if (entries_.empty()) return;
   const double room = rows_within_pixels - 2 * padding * em;
   if (rows_within_pixels > 0)
-    for (LegendEntry& entry : entries_) entry.name = shortened(entry.name, em, room - (entry.sample ? entry.width + gap : 0) * em);
+    for (LegendEntry& entry : entries_) {
+      if (const double over = width_of(entry, em) - room; over > lack_.pixels) lack_ = {over, entry.name};
+      entry.name = shortened(entry.name, em, room - (entry.sample ? entry.width + gap : 0) * em);
+    }
   // As few rows as hold all entries; these stand in columns if columns need no more rows.
   const std::size_t rows = rows_within_pixels > 0 ? rows_within(entries_, em, room).back() + 1 : entries_.size();
   const std::vector<LegendEntry> given = entries_;

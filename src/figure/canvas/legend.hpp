@@ -16,6 +16,12 @@ struct LegendEntry {
   double width = 2;  // of the sample, in em
 };
 
+// How many pixels wider a row must be to have room for its longest name; 0: it has room.
+struct Lack {
+  double pixels = 0;
+  std::string name;
+};
+
 class Legend {
 public:
   // em: height of the letters in pixels. rows_within_pixels: entries take as few rows of at most this width as possible, and stand in columns if columns need no
@@ -25,6 +31,7 @@ public:
   bool empty() const { return entries_.empty(); }
   double width() const { return width_; }
   double height() const { return height_; }
+  const Lack& lack() const { return lack_; }
   void draw(Canvas& canvas, Point lower_left, bool framed) const;
 
 private:
@@ -34,6 +41,7 @@ private:
   std::vector<LegendEntry> entries_;
   std::vector<Point> places_;  // lower left of each entry, from the block's top left
   double em_, width_ = 0, height_ = 0;
+  Lack lack_;
 };
 
 }  // namespace dotyk::figure

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "figure/canvas/axes.hpp"
+#include "figure/canvas/legend.hpp"
 #include "figure/canvas/places.hpp"
 
 namespace dotyk::figure {
@@ -30,8 +31,9 @@ void draw_guide(Canvas& canvas, const ChartPicture& picture, const SlopeGuide& g
 struct ChartMargins {
   double left = 0, right = 0, below = 0, above = 0, plot = 0;
   const ChartNote* crowded = nullptr;
+  Lack legend = {};
 };
-// Throws InputError where labels leave less than 15 mm for a plot in one of so many columns, or a note has no place.
+// Throws InputError if labels leave less than 15 mm for a plot in one of so many columns, or a note or a name in the legend has no room.
 void require_room(const Sheet& sheet, const ChartMargins& margins, int columns);
 
 // What a chart has in common with those above and below it.

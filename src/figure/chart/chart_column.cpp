@@ -134,6 +134,7 @@ void render(const ChartColumn& given) {
   const FittedText title = fitted(picture.title, 1.15 * em, picture.width - 1.2 * em, true);
   const Legend legend = common_legend(picture.panels, em, picture.width - em);
   const double above = (picture.title.empty() ? 0 : 1.9 * em + title.depth()) + legend.height();
+  require_room(picture, {.plot = 1.0 * picture.width, .legend = legend.lack()}, 1);
   Grid grid(picture, em, legend.empty());
   // The picture grows where plots would be too low to be legible.
   const bool polar = std::ranges::any_of(picture.panels, &ChartPicture::polar);

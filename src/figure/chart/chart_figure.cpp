@@ -55,7 +55,7 @@ public:
     if (picture.polar) draw_polar_labels(canvas_, axes, occupied_);
   }
 
-  ChartMargins margins() const { return {room_.left, picture_.width - room_.right, room_.bottom, picture_.height - room_.top - spare_, inner_width(), crowded_note_}; }
+  ChartMargins margins() const { return {room_.left, picture_.width - room_.right, room_.bottom, picture_.height - room_.top - spare_, inner_width(), crowded_note_, legend_.lack()}; }
 
 private:
   // Margins from the widths of what stands in them.
@@ -303,7 +303,8 @@ private:
 void require_room(const Sheet& sheet, const ChartMargins& margins, int columns) {
   if (margins.crowded) throw InputError("the note \"" + margins.crowded->text + "\" has no free place in its plot: give fewer words, or a greater 'size'");
   constexpr double kLeast = 15;  // mm
-  const double mm = printed_width(sheet) / sheet.width, needed = std::ceil(printed_width(sheet) + columns * (kLeast - mm * margins.plot));
+  const double mm = printed_width(sheet) / sheet.width, needed = std::ceil(printed_width(sheet) + columns * std::max(kLeast - mm * margins.plot, mm * margins.legend.pixels));
+  if (margins.legend.pixels > 0) throw InputError(text("the name \"", margins.legend.name, "\" is wider than its chart: give fewer words, or a 'width' of ", needed, " mm"));
   if (mm * margins.plot < kLeast - 0.05)
     throw InputError(text("beside its labels ", std::max(0.0, std::floor(mm * margins.plot)), " mm are left for ", columns > 1 ? "a" : "the", " plot of ", sheet.file, ", at least ", kLeast, " are needed: give ", columns > 1 ? "fewer 'columns' or " : "", "a 'width' of ", needed, " mm"));
 }

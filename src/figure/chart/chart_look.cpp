@@ -2,7 +2,6 @@
 
 #include <numeric>
 
-#include "base/error.hpp"
 #include "figure/chart/chart_map.hpp"
 
 namespace dotyk::figure {
@@ -200,11 +199,6 @@ LegendEntry entry(const std::string& name, const Look& look, double em) {
   return {name, [pen = Pen{em}, look](Canvas& canvas, const Box& box) { pen.sample(canvas, look, box); }, marker ? kMarker : kLine};
 }
 
-void check_width(const std::vector<LegendEntry>& entries, double em, double width) {
-  for (const LegendEntry& entry : entries)
-    if (width > 0 && Legend({entry}, em, 0).width() > width) throw InputError("the name \"" + entry.name + "\" is wider than its chart: give fewer words, or a greater 'width'");
-}
-
 }  // namespace
 
 bool legend_serves(const ChartPicture& with, const ChartPicture& other) {
@@ -237,14 +231,12 @@ Legend common_legend(const std::vector<ChartPicture>& panels, double em, double 
   }
   if (cells) entries = map_legend(*cells);
   for (const auto& [name, look] : seen) entries.push_back(entry(name, look, em));
-  if (shared) check_width(entries, legend_letters * em, width);
   return Legend(shared ? std::move(entries) : std::vector<LegendEntry>(), legend_letters * em, width);
 }
 
 Legend chart_legend(const ChartPicture& picture, double em, double width, const std::set<const SeriesPicture*>& also) {
   std::vector<LegendEntry> entries = picture.map ? map_legend(*picture.map) : std::vector<LegendEntry>();
   for (const Look& look : named(picture, also)) entries.push_back(entry(name_of(look, picture), look, em));
-  check_width(entries, legend_letters * em, width);
   return Legend(std::move(entries), legend_letters * em, width);
 }
 
