@@ -168,13 +168,13 @@ std::vector<Label> strip_labels(const Stage& stage, const Plate& plate) {
   for (const EdgeRun& run : plate.runs)
     for (const double sign : {1.0, -1.0})
       if (const EdgePoint* peak = plate.greatest_reaction > 0 ? peak_of(plate, run, sign) : nullptr) peaks.push_back(peak);
-  std::ranges::stable_sort(peaks, std::greater{}, [](const EdgePoint* p) { return std::abs(p->reaction); });
   std::vector<Label> out;
-  std::vector<double> told;
-  for (const EdgePoint* p : peaks) {
-    if (std::ranges::any_of(told, [&](double value) { return std::abs(p->reaction - value) < 0.01 * std::abs(value); })) continue;
-    told.push_back(p->reaction);
-    out.push_back(label_at(stage, plate, *p));
+  const auto size = [](const EdgePoint* p) { return std::abs(p->reaction); };
+  while (!peaks.empty()) {  // of equal peaks the first one is told
+    const double greatest = size(std::ranges::max(peaks, {}, size));
+    const EdgePoint& told = **std::ranges::find_if(peaks, [&](const EdgePoint* p) { return size(p) >= 0.9999 * greatest; });
+    out.push_back(label_at(stage, plate, told));
+    std::erase_if(peaks, [&](const EdgePoint* p) { return std::abs(p->reaction - told.reaction) < 0.01 * size(&told); });
   }
   return out;
 }

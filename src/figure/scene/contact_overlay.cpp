@@ -100,9 +100,10 @@ void draw_line(Stage& stage, const ContactPicture& contact) {
   for (const bool rim : {true, false})
     for (const auto& [a, b] : pairs(contact.facets))
       for (const int i : {a, b}) {
+        const bool whole = rim || contact.nodes[a].status == contact.nodes[b].status;  // halves of one colour would show a seam
         const Colour colour = rim ? rim_colour : status_colour(contact.nodes[i].status);
         const double w = rim ? 1.5 * width : width;
-        stage.over.line(at[i], 0.5 * (at[a] + at[b]), w, colour);
+        if (!whole || i == a) stage.over.line(at[i], whole ? at[b] : 0.5 * (at[a] + at[b]), w, colour);
         stage.over.disc(at[i], w / 2, colour);
       }
   std::set<std::size_t> marked;
