@@ -39,7 +39,7 @@ CoarseStart coarse_start(const Problem& problem, const Pdas& settings, Monitor& 
   try {
     const CoarseStart before = coarse_start(part, settings, inner);
     Pdas begun = settings;
-    begun.start = before.active, begun.from = before.state, begun.nested = false;
+    begun.start = before.active, begun.from = before.state, begun.nested = false, begun.rough = true;
     begun.tol = std::max(begun.tol, kTolerance);
     start.meshes = before.meshes + 1;
     result = part.unknowns() > kSmall ? solve(part, begun, inner) : solve(part, {}, {before.active}, inner);

@@ -52,7 +52,7 @@ std::string cause(const SetIteration& it, End end) {
 /// Newton steps; where they do not come to rest, from where the rescues end, one after the other. A rescue begins while steps are left,
 /// and has steps of its own to be confirmed.
 End iterate_and_rescue(SetIteration& it, bool& inside, std::string& rescued) {
-  if (!it.problem.friction.empty()) return it.iterate(it.left(), it.left());
+  if (!it.problem.friction.empty() || it.settings.rough) return it.iterate(it.left(), it.left());
   End end = it.iterate(it.left(), kPatience);
   for (const Rescue rescue : kRescues) {
     if (it.left() <= 0 || !comes_to_no_rest(end)) break;
@@ -67,7 +67,7 @@ End iterate_and_rescue(SetIteration& it, bool& inside, std::string& rescued) {
 
 void conclude(SetIteration& it, End end, bool inside, const std::string& rescued) {
   Result& result = it.result;
-  result.converged = end == End::confirmed;
+  result.converged = end == End::confirmed || (end == End::cycle && it.settings.rough);
   switch (end) {
     case End::confirmed: result.reason = (it.problem.friction.empty() ? "active set confirmed" : "the residual fell below tol") + rescued; break;
     case End::misplaced: result.reason = text("a screw still pulls after ", it.screws->moves(), " moves"); break;
@@ -79,7 +79,7 @@ void conclude(SetIteration& it, End end, bool inside, const std::string& rescued
     case End::cycle: {
       const std::string why = "active sets repeated at " + it.places();
       result.reason = "active sets repeat at " + it.places();
-      if (!by_active_set(it, why)) by_proximal(it, why);
+      if (!it.settings.rough && !by_active_set(it, why)) by_proximal(it, why);
       break;
     }
     case End::exhausted:
@@ -162,7 +162,7 @@ Result solve(const problem::Problem& problem, const Pdas& settings, Monitor& mon
     it.result.factor_bytes = std::max(it.result.factor_bytes, solver.bytes());
     if (solver.levels() > 0) it.result.method = "multigrid", it.result.multigrid = {solver.levels(), solver.iterations(), it.result.iterations};
   }
-  if (it.result.converged && pieces) confirm_laws(it);
+  if (it.result.converged && pieces && !settings.rough) confirm_laws(it);
   it.result.clock.recover += iterating.lap();
   return std::move(it.result);
 }

@@ -29,6 +29,8 @@ struct Pdas : Settings {
   MakeSpdSolver linear;
   /// Where coarser meshes are known and no `start` is given, the iteration begins at the solution on the next coarser mesh; see coarse_start().
   bool nested = false;
+  /// Only to begin another iteration, as on a finer mesh: active sets that repeat will do, and no rescue leaves them.
+  bool rough = false;
   /// What solves the linear problem of an iteration in its place, without friction; empty: held_step.
   std::function<std::unique_ptr<Step>(const problem::Problem&, const problem::RigidMotions&, const algebra::Vector& rho)>
       step;
