@@ -103,7 +103,7 @@ OwnedMat product(Mat S, Mat P) {
 
 /// So many unknowns of the coarsest mesh are solved for by a factor, of a finest mesh of so many; aggregates, which converge more slowly than meshes, follow
 /// where there are more. The factor takes some 8 n² operations in space; Coulomb friction on 76³ cells, 20³ on the coarsest mesh: 30 iterations for 37.
-double most_by_factor(double unknowns) { return std::clamp(std::sqrt(400 * unknowns), 2e3, 25e3); }
+double most_by_factor(double unknowns) { return std::clamp(std::sqrt(500 * unknowns), 2e3, 25e3); }
 
 }  // namespace
 
