@@ -85,7 +85,8 @@ void Cycle::make() {
     const int theirs = levels() - 1 - l;  // PETSc counts from the coarsest
     // A second sweep costs little where a level has few unknowns. On the second coarser mesh and below (1/64 of the unknowns) it saves a tenth of the
     // iterations with friction: 28 instead of 31 on a cube of 64³ cells. Where aggregates follow the coarsest mesh, they converge more slowly than meshes, and a
-    // second sweep from that mesh on saves a fifth: 22 instead of 27 on 76³ cells. With several ranks, whose sweeps see late what others have, one level earlier.
+    // second sweep from that mesh on saves a fifth: 22 instead of 27 on 76³ cells, with aggregates below 19³. A sweep of one rank uses old values of the others;
+    // with several ranks the second sweep therefore begins one level earlier.
     const int sweeps = hierarchy_.meshes() > 0 && l >= std::min(hierarchy_.meshes(), ranks_.alone() ? 2 : 1) ? 2 : 1;
     check(PCMGSetInterpolation(pc, theirs, hierarchy_.interpolation(l)));
     check(PCMGGetSmootherDown(pc, theirs, &ksp));
@@ -124,9 +125,7 @@ bool Cycle::set(const Change& change) {
   damp();
   if (!ranks_.all(finest_.set(hierarchy_.matrix(0), change.shared))) return false;
   check(KSPSetOperators(ksp_, hierarchy_.matrix(0), hierarchy_.matrix(0)));
-  const PetscErrorCode code = KSPSetUp(ksp_);
-  if (code == PETSC_ERR_MAT_CH_ZRPVT) return false;
-  check(code);
+  if (!ranks_.all(set_up(ksp_))) return false;
   bytes_ = ranks_.sum(hierarchy_.bytes());
   return true;
 }

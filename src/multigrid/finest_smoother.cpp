@@ -21,6 +21,13 @@ void factor_on_each(KSP ksp, Mat matrix, MatFactorShiftType shift, MatSolverType
   check(PCFactorSetMatSolverType(pc, library));
 }
 
+bool set_up(KSP ksp) {
+  const PetscErrorCode code = KSPSetUp(ksp);
+  if (code == PETSC_ERR_MAT_CH_ZRPVT) return false;
+  check(code);
+  return true;
+}
+
 bool FinestSmoother::set(Mat matrix, const std::vector<int>& shared) {
   matrix_ = matrix, shared_ = shared, omega_ = damping(matrix, shared);
   const Ranks ranks = ranks_of(matrix);
@@ -40,10 +47,7 @@ bool FinestSmoother::set(Mat matrix, const std::vector<int>& shared) {
   check(MatCreateVecs(block_, change_.put(), left_.put()));
   check(KSPCreate(ranks.comm(), exact_.put()));
   factor_on_each(exact_, block_, MAT_SHIFT_NONE, MATSOLVERCHOLMOD);
-  const PetscErrorCode code = KSPSetUp(exact_);
-  if (code == PETSC_ERR_MAT_CH_ZRPVT) return false;
-  check(code);
-  return true;
+  return set_up(exact_);
 }
 
 void FinestSmoother::attach(KSP level, bool before) {

@@ -40,4 +40,7 @@ class FinestSmoother {
 /// Makes `ksp` solve with a sparse matrix that is small enough for a factor, on every rank the same one. Collective.
 void factor_on_each(KSP ksp, Mat matrix, MatFactorShiftType shift, MatSolverType library);
 
+/// Makes the factors that `ksp` needs. False where a matrix is not positive definite. Collective; may be false on some ranks only.
+bool set_up(KSP ksp);
+
 }  // namespace dotyk::multigrid

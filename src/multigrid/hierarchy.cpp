@@ -101,8 +101,9 @@ OwnedMat product(Mat S, Mat P) {
   return m;
 }
 
-/// So many unknowns of the coarsest mesh are solved for by a factor, of a finest mesh of so many; aggregates, which converge more slowly than meshes, follow
-/// where there are more. The factor takes some 8 n² operations in space; Coulomb friction on 76³ cells, 20³ on the coarsest mesh: 30 iterations for 37.
+/// The most unknowns of a coarsest mesh that is solved by a factor, where the finest mesh has `unknowns`. Aggregates follow a larger one; they converge more
+/// slowly than meshes. A factor of n unknowns takes some 8 n² operations in space. With Coulomb friction on 76³ cells, whose coarsest mesh has 19³, a
+/// factor needs 30 iterations and aggregates 37.
 double most_by_factor(double unknowns) { return std::clamp(std::sqrt(500 * unknowns), 2e3, 25e3); }
 
 }  // namespace

@@ -29,7 +29,7 @@ struct Pdas : Settings {
   MakeSpdSolver linear;
   /// Where coarser meshes are known and no `start` is given, the iteration begins at the solution on the next coarser mesh; see coarse_start().
   bool nested = false;
-  /// Only to begin another iteration, as on a finer mesh: active sets that repeat will do, and no rescue leaves them.
+  /// The result is only the start of another iteration, as on a finer mesh: where active sets repeat it counts as converged, and no rescue is tried.
   bool rough = false;
   /// What solves the linear problem of an iteration in its place, without friction; empty: held_step.
   std::function<std::unique_ptr<Step>(const problem::Problem&, const problem::RigidMotions&, const algebra::Vector& rho)>
