@@ -1,6 +1,7 @@
 // Coarse matrices PᵀAP whose pattern is known, in which only some rows change.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "base/buckets.hpp"
@@ -28,7 +29,7 @@ class Galerkin {
   double bytes() const;
 
  private:
-  /// Rows of numbers, one a member of a block, of which few are used at a time.
+  /// Lists of numbers, each of one size, of which few are used at a time.
   struct SomeRows {
     double* at(int row, int size);
     void clear();
@@ -36,20 +37,29 @@ class Galerkin {
     std::vector<double> numbers;
   };
 
-  template <int fixed>
+  // Sizes that are known to the compiler; 0: any.
+  template <int rows_of_node, int columns>
   void compute_block(int block, const LocalRows& A, const RowsView& P);
+  template <int rows_of_node, int columns>
+  void add_rows(std::span<const int> rows, const LocalRows& A);
+  template <int columns>
+  void add_product(const LocalRows& A, const RowsView& P);
   void put_block(int block, LocalRows& C);
   void send_block(int block, Mat C);
 
-  int size_ = 1;                     // of a coarse block
+  int size_ = 1, fine_ = 1;          // rows of a coarse node, of a fine one
   Owned<IS, ISDestroy> rows_, columns_;
   OwnedMat reached_;                 // rows of P that this rank's rows of A reach; none where there is one rank, as these are P
   int below_ = 0;                    // of these, how many come before the rank's own
+  int own_ = 0;                      // fine nodes of this rank
+  std::vector<int> other_node_;      // column of A on other ranks → its node, counted after the own ones
+  std::vector<int> other_first_;     // of each of these nodes its first column, and the number of all
+  std::vector<char> alike_;          // own fine nodes whose rows of A have the same columns
   Buckets support_;                  // coarse node → the own rows of P with entries in its columns, as rows of reached_
   Buckets first_;                    // beside support_: the first of these entries
-  // Room to work: row k of `product_` is (A P)_kJ of the block J, since A is symmetric; `sum_` is the block's rows of the coarse matrix, by columns.
+  // Room to work: `product_` has (A P)_kJ for fine nodes k and the block J, since A is symmetric; `sum_` the block's rows of the coarse matrix, by columns.
   SomeRows product_, sum_;
-  std::vector<double> entry_;
+  std::vector<double> entries_;      // P_iJ of one fine node i
 };
 
 }  // namespace dotyk::multigrid

@@ -112,8 +112,8 @@ Hierarchy::Hierarchy(const Ranks& ranks, Piece piece, const Change& first) : ran
   empty_.assign(static_cast<std::size_t>(piece_.own[0]), 0);
   matrices_.push_back(matrix_of(piece_.matrix, piece_.own[0], {piece_.block, piece_.block}));
   check(MatSetOption(matrices_[0], MAT_SPD, PETSC_TRUE));
-  std::vector<char> changed(empty_.size());
-  take(first, changed);
+  pending_.emplace_back(empty_.size(), ranks_.all(piece_.coarser.columns.empty()));
+  take(first);
   tell_changed(matrices_[0]);
   coarsen();
 }
@@ -129,7 +129,7 @@ void Hierarchy::coarsen() {
   if (!piece_.functions.empty()) {
     take_functions(S);
     if (ranks_.sum(piece_.own.back()) > most_by_factor(ranks_.sum(piece_.own[0]))) {
-      fill_coarse(std::vector<char>(empty_.size(), 1));
+      fill_coarse();
       take_aggregates(matrices_.back());
     }
   } else if (S) {
@@ -145,17 +145,24 @@ void Hierarchy::coarsen() {
   piece_.unknowns = Rows(), piece_.modes = {};
   for (std::size_t l = products_.size(); l < interpolations_.size(); ++l) {
     check(MatProductClear(matrices_[l + 1]));  // what PETSc keeps for its own product
-    products_.emplace_back(matrices_[l], interpolations_[l], matrices_[l + 1]);
+    multiply(static_cast<int>(l));
   }
+}
+
+void Hierarchy::multiply(int level) {
+  products_.emplace_back(matrices_[level], interpolations_[level], matrices_[level + 1]);
+  if (level > 0) pending_.emplace_back(static_cast<std::size_t>(LocalRows(matrices_[level]).count()), 1);
 }
 
 void Hierarchy::take_functions(Mat S) {
   for (std::size_t l = 0; l < piece_.functions.size(); ++l) {
     OwnedMat P = matrix_of(piece_.functions[l], piece_.own[l + 1], {l == 0 ? piece_.block : piece_.dimension, piece_.dimension});
     if (l == 0 && S) P = product(S, P);
-    matrices_.push_back(coarse_matrix(matrices_.back(), P));
-    products_.emplace_back(matrices_[l], P, matrices_.back());
+    const bool known = l == 0 && !ranks_.all(piece_.coarser.columns.empty());
+    matrices_.push_back(known ? matrix_of(piece_.coarser, piece_.own[1], {piece_.dimension, piece_.dimension}) : coarse_matrix(matrices_.back(), P));
+    if (known) make_definite(matrices_[1], std::vector<char>(static_cast<std::size_t>(piece_.own[1]), 1));
     interpolations_.push_back(std::move(P));
+    multiply(static_cast<int>(l));
   }
 }
 
@@ -182,13 +189,13 @@ void Hierarchy::take_unknowns(Mat S) {
     matrices_[l + 1] = coarse_matrix(matrices_[l], interpolations_[l]);
 }
 
-void Hierarchy::truncate(const std::vector<int>& held, std::vector<char>& changed) {
-  std::vector<char> empty(changed.size(), 0);
+void Hierarchy::truncate(const std::vector<int>& held) {
+  std::vector<char> empty(empty_.size(), 0);
   for (const int row : held) empty[row] = 1;
   const LocalRows P(interpolations_[0]);
   for (int i = 0; i < P.count(); ++i) {
     if (empty[i] == empty_[i]) continue;
-    changed[i] = 1;
+    pending_[0][i] = 1;
     std::vector<double>& before = emptied_[i];
     std::size_t k = 0;
     P.for_each(i, [&](int, double& value) {
@@ -200,7 +207,7 @@ void Hierarchy::truncate(const std::vector<int>& held, std::vector<char>& change
   empty_ = empty;
 }
 
-bool Hierarchy::take(const Change& change, std::vector<char>& changed) {
+bool Hierarchy::take(const Change& change) {
   bool positive = true;
   const LocalRows A(matrices_[0]);
   for (std::size_t e = 0; e < change.values.size(); ++e) {
@@ -208,31 +215,30 @@ bool Hierarchy::take(const Change& change, std::vector<char>& changed) {
     double* number = A.find(row, change.columns[e]);
     if (!number) throw std::runtime_error("multigrid: the matrix has another pattern than the one that the solver was made for");
     if (change.rows[e] == change.columns[e] && !(change.values[e] > 0)) positive = false;
-    if (std::exchange(*number, change.values[e]) != change.values[e]) changed[row] = 1;
+    if (std::exchange(*number, change.values[e]) != change.values[e]) pending_[0][row] = 1;
   }
   return positive;
 }
 
 bool Hierarchy::set(const Change& change) {
-  std::vector<char> changed(empty_.size(), fresh_);
-  fresh_ = true;  // until all levels are done
-  if (!ranks_.all(take(change, changed))) return false;
+  if (!ranks_.all(take(change))) return false;
   tell_changed(matrices_[0]);
   if (!interpolations_.empty()) {
-    truncate(change.empty, changed);
+    truncate(change.empty);
     tell_changed(interpolations_[0]);
     products_[0].fetch(matrices_[0], interpolations_[0]);
   }
-  fill_coarse(std::move(changed));
-  fresh_ = false;
+  fill_coarse();
   return true;
 }
 
-void Hierarchy::fill_coarse(std::vector<char> changed) {
+void Hierarchy::fill_coarse() {
   for (std::size_t l = 0; l < products_.size(); ++l) {
-    changed = products_[l].compute(matrices_[l], interpolations_[l], matrices_[l + 1], changed);
-    make_definite(matrices_[l + 1], changed);
+    const std::vector<char> computed = products_[l].compute(matrices_[l], interpolations_[l], matrices_[l + 1], pending_[l]);
+    make_definite(matrices_[l + 1], computed);
     tell_changed(matrices_[l + 1]);
+    std::ranges::fill(pending_[l], 0);
+    for (std::size_t i = 0; l + 1 < products_.size() && i < computed.size(); ++i) pending_[l + 1][i] |= computed[i];
   }
 }
 

@@ -26,8 +26,8 @@ class Hierarchy {
   double bytes() const;  ///< of this rank
 
  private:
-  /// Takes the entries, and flags the rows in which one differs. False where a number of the diagonal is not positive.
-  bool take(const Change& change, std::vector<char>& changed);
+  /// Takes the entries. False where a number of the diagonal is not positive.
+  bool take(const Change& change);
   OwnedMat matrix_of(Rows& rows, int own_columns, std::array<int, 2> blocks);
   void coarsen();
   /// Levels of coarser meshes. S: the unknowns, of displacements, all slots; null where they are the same.
@@ -36,9 +36,10 @@ class Hierarchy {
   void take_aggregates(Mat finest);
   /// Interpolations from coarse displacements to the unknowns, and coarse matrices of these.
   void take_unknowns(Mat S);
-  /// The numbers of coarse matrices, as far as they depend on the changed rows of the finest.
-  void fill_coarse(std::vector<char> changed);
-  void truncate(const std::vector<int>& held, std::vector<char>& changed);
+  void multiply(int level);  ///< makes the product that gives the next level
+  /// The numbers of coarse matrices that are to be computed.
+  void fill_coarse();
+  void truncate(const std::vector<int>& held);
 
   const Ranks ranks_;
   Piece piece_;                                 // whose arrays are the first matrices'
@@ -47,7 +48,7 @@ class Hierarchy {
   std::vector<Galerkin> products_;              // of each interpolation
   std::vector<char> empty_;                     // own rows of the finest interpolation that are empty now
   std::map<int, std::vector<double>> emptied_;  // the numbers that they had
-  bool fresh_ = true;                           // no coarse matrix is ours yet
+  std::vector<std::vector<char>> pending_;      // of each level, flags of own rows on which numbers of the next depend that are to be computed
 };
 
 }  // namespace dotyk::multigrid

@@ -106,6 +106,7 @@ void visit_all(Piece& p, Visit&& visit) {
   visit(p.own);
   visit_rows(p.matrix, visit);
   for (Rows& functions : p.functions) visit_rows(functions, visit);
+  visit_rows(p.coarser, visit);
   visit_rows(p.displaced, visit), visit_rows(p.unknowns, visit);
   visit(p.modes);
 }
@@ -129,21 +130,33 @@ Pieces::Pieces(const Matrix& matrix, const Numbering& numbering) : matrix_(matri
     throw std::runtime_error("multigrid: the matrix is not compressed, or nodes are not given for each unknown");
   if (2.0 * static_cast<double>(matrix.lower.nonZeros()) > std::numeric_limits<int>::max())
     throw std::runtime_error("multigrid: the matrix has more entries than can be counted");
-  finest_ = full(matrix.lower);
+  finest_ = full(matrix.lower, 0, numbering.slot(), numbering.idle());
+  if (matrix.coarser) coarser_ = coarser();
   if (!matrix.displaced) return;
   if (matrix.coarse) mean_diagonal(*matrix.displaced);
-  else displaced_ = full(*matrix.displaced);
+  else displaced_ = full(*matrix.displaced, 0, numbering.slot(), numbering.idle());
 }
 
-Pieces::Full Pieces::full(const algebra::SparseMatrix& lower) const {
-  Full full{&lower, mean_diagonal(lower), std::vector<int>(static_cast<std::size_t>(numbering_.first(0).back()), 0)};
-  each_entry(lower, numbering_.slot(), [&](int row, int, int) { ++full.entries[row]; });
-  for (const int i : numbering_.idle()) full.entries[i] = 1;
+Pieces::Full Pieces::full(const algebra::SparseMatrix& lower, int level, std::vector<int> slot, std::vector<int> idle) const {
+  Full full{&lower, level, std::move(slot), std::move(idle), mean_diagonal(lower), std::vector<int>(static_cast<std::size_t>(numbering_.first(level).back()), 0)};
+  each_entry(lower, full.slot, [&](int row, int, int) { ++full.entries[row]; });
+  for (const int i : full.idle) full.entries[i] = 1;
   return full;
 }
 
+Pieces::Full Pieces::coarser() const {
+  const algebra::SparseRows& functions = matrix_.coarse->front();
+  std::vector<char> used(static_cast<std::size_t>(functions.cols()), 0);
+  for (int i = 0; i < functions.rows(); ++i)
+    for (algebra::SparseRows::InnerIterator it(functions, i); it; ++it) used[it.col()] = 1;
+  std::vector<int> slot, idle;
+  for (std::size_t k = 0; k < used.size(); ++k) (used[k] ? slot : idle).push_back(numbering_.functions(1)[k]);
+  if (static_cast<std::size_t>(matrix_.coarser->rows()) != slot.size()) throw std::runtime_error("multigrid: the coarser matrix is not one of these functions");
+  return full(*matrix_.coarser, 1, std::move(slot), std::move(idle));
+}
+
 Rows Pieces::rows_of(int rank, const Full& full) const {
-  const Range range = range_of(rank, numbering_, 0);
+  const Range range = range_of(rank, numbering_, full.level);
   Rows rows;
   for (int row = range.first; row < range.last; ++row) rows.starts.push_back(rows.starts.back() + full.entries[row]);
   rows.columns.resize(static_cast<std::size_t>(rows.starts.back()));
@@ -154,8 +167,8 @@ Rows Pieces::rows_of(int rank, const Full& full) const {
     const int at = next[row - range.first]++;
     rows.columns[at] = column, rows.values[at] = value;
   };
-  each_entry(*full.lower, numbering_.slot(), [&](int row, int column, int place) { put(row, column, full.lower->valuePtr()[place]); });
-  for (const int i : numbering_.idle()) put(i, i, full.idle);
+  each_entry(*full.lower, full.slot, [&](int row, int column, int place) { put(row, column, full.lower->valuePtr()[place]); });
+  for (const int i : full.idle) put(i, i, full.mean);
   sort_rows(rows);
   return rows;
 }
@@ -170,6 +183,7 @@ Piece Pieces::of(int rank) const {
   for (int l = 0; l < meshes; ++l)
     p.functions.push_back(some_rows((*matrix_.coarse)[l], l == 0 ? &numbering_.slot() : &numbering_.functions(l), &numbering_.functions(l + 1),
                                     range_of(rank, numbering_, l)));
+  if (coarser_.lower) p.coarser = rows_of(rank, coarser_);
   if (displaced_.lower) p.displaced = rows_of(rank, displaced_);
   if (matrix_.unknowns) p.unknowns = some_rows(*matrix_.unknowns, &numbering_.slot(), &numbering_.slot(), finest, numbering_.idle());
   p.modes = some_modes(matrix_.near_kernel, meshes > 0 ? numbering_.functions(meshes) : numbering_.slot(), range_of(rank, numbering_, meshes));

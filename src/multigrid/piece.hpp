@@ -21,6 +21,7 @@ struct Piece {
   std::vector<int> own;          ///< how many rows of each level are this rank's
   Rows matrix;                   ///< the full one, which the lower triangle stands for; idle rows have the mean of its diagonal
   std::vector<Rows> functions;   ///< of each coarser mesh
+  Rows coarser;                  ///< the matrix of the next coarser mesh, as `matrix`, idle where functions are empty. No rows where it is not known
   Rows displaced;                ///< as in Matrix, full, where there are no coarser meshes; idle rows as in `matrix`
   Rows unknowns;                 ///< as in Matrix; idle rows as in the identity. No rows where it has none
   std::vector<double> modes;     ///< near kernel, by columns: on the finest level, or the coarsest mesh
@@ -34,18 +35,21 @@ class Pieces {
   Piece of(int rank) const;
 
  private:
-  /// The full matrix that a lower triangle stands for, with idle rows.
+  /// The full matrix of one level that a lower triangle stands for, with idle rows.
   struct Full {
     const algebra::SparseMatrix* lower = nullptr;
-    double idle = 0;           ///< mean of the diagonal
-    std::vector<int> entries;  ///< of each row
+    int level = 0;
+    std::vector<int> slot, idle;  ///< number of each row of the triangle; numbers of the idle rows
+    double mean = 0;              ///< of the diagonal
+    std::vector<int> entries;     ///< of each row
   };
-  Full full(const algebra::SparseMatrix& lower) const;
+  Full full(const algebra::SparseMatrix& lower, int level, std::vector<int> slot, std::vector<int> idle) const;
+  Full coarser() const;
   Rows rows_of(int rank, const Full& full) const;
 
   const Matrix& matrix_;
   const Numbering& numbering_;
-  Full finest_, displaced_;  // the second where aggregates are made of it
+  Full finest_, displaced_, coarser_;  // the second where aggregates are made of it
 };
 void send(const Ranks& ranks, int to, Piece& piece);
 Piece receive_piece(const Ranks& ranks, int from);

@@ -29,7 +29,7 @@ class CoarseRows : public RowSubset {
 CoarseStart coarse_start(const Problem& problem, const Pdas& settings, Monitor& monitor) {
   if (problem.rows() == 0 || problem.unknowns() <= kSmall || problem::coarser_meshes(problem) == 0) return {};
   monitor.phase("solving on coarser meshes");
-  const problem::Coarser coarse = problem::coarser(problem);
+  problem::Coarser coarse = problem::coarser(problem);
   const CoarseRows rows(coarse.problem, coarse.kept);
   if (rows.count() == 0) return {};
   const Problem part = rows.restricted();
@@ -39,7 +39,7 @@ CoarseStart coarse_start(const Problem& problem, const Pdas& settings, Monitor& 
   try {
     const CoarseStart before = coarse_start(part, settings, inner);
     Pdas begun = settings;
-    begun.start = before.active, begun.from = before.state, begun.nested = false, begun.rough = true;
+    begun.start = before.active, begun.from = before.state, begun.coarser = before.stiffness, begun.nested = false, begun.rough = true;
     begun.tol = std::max(begun.tol, kTolerance);
     start.meshes = before.meshes + 1;
     result = part.unknowns() > kSmall ? solve(part, begun, inner) : solve(part, {}, {before.active}, inner);
@@ -59,6 +59,7 @@ CoarseStart coarse_start(const Problem& problem, const Pdas& settings, Monitor& 
     for (int r = group.first; r < group.first + group.count; ++r)
       if (!coarse.kept[r]) start.active[r] = x[r] >= touches;
   start.state = std::make_shared<problem::State>(coarse.prolonged(result.state));
+  if (problem.blocks.size() == 1) start.stiffness = std::make_shared<algebra::SparseMatrix>(std::move(coarse.problem.blocks[0].K));
   return start;
 }
 

@@ -37,7 +37,7 @@ bool has_room(const SparseMatrix& matrix, const SparseMatrix& pattern) {
 
 }  // namespace
 
-HeldStiffness::HeldStiffness(const Problem& problem, const RigidMotions& rigid, const MakeSpdSolver& make, Monitor& monitor)
+HeldStiffness::HeldStiffness(const Problem& problem, const RigidMotions& rigid, const MakeSpdSolver& make, Monitor& monitor, const SparseMatrix* coarser)
     : problem_(problem), basis_(problem::row_basis(problem)), unnoticed_(problem::unnoticed_displacements(problem, rigid)), rows_(problem.B * basis_.T),
       fixing_(algebra::fixing_unknowns(unnoticed_)) {
   rows_.prune([](auto, auto, double value) { return std::abs(value) > 1e-14; });
@@ -51,7 +51,7 @@ HeldStiffness::HeldStiffness(const Problem& problem, const RigidMotions& rigid, 
   for (const int unknown : fixing_) change(unknown, unknown, lower().coeff(unknown, unknown));  // carries nothing
   if (rigid.noticed.cols() > 0) spring_rows(problem.row_stiffness());
   std::vector<Entry> first = now();
-  solver_ = make({lower(), numbers(first), problem, basis_, monitor});
+  solver_ = make({lower(), numbers(first), problem, basis_, monitor, lower_.size() > 0 ? nullptr : coarser});
   told_ = std::move(first);
 }
 
@@ -218,6 +218,7 @@ MakeSpdSolver multigrid(Levels levels, double most_iterations) {
     matrix.changed = &s.changed;
     matrix.most_iterations = most_iterations;
     if (!coarse.empty()) matrix.coarse = &coarse, matrix.dimension = s.problem.blocks[0].coarse.dimension;
+    if (levels == Levels::meshes) matrix.coarser = s.coarser;
     if (s.basis.trivial()) return multigrid::make_solver(matrix, s.monitor);
     const SparseMatrix K = held_slightly(s.problem), unknowns = s.basis.of_displacements(s.problem);
     matrix.displaced = &K, matrix.unknowns = &unknowns;

@@ -19,6 +19,7 @@ struct SpdSystem {
   const problem::Problem& problem;
   const problem::RowBasis& basis;
   Monitor& monitor;  ///< outlives the solver
+  const algebra::SparseMatrix* coarser;  ///< what problem::coarser() makes of `lower`, where it is known; else null
 };
 using MakeSpdSolver = std::function<std::unique_ptr<algebra::SpdSolver>(const SpdSystem&)>;
 
@@ -48,7 +49,9 @@ MakeSpdSolver multigrid(Levels levels, double most_iterations = std::numeric_lim
 class HeldStiffness {
  public:
   static constexpr double kTolerance = 1e-12;
-  HeldStiffness(const problem::Problem& problem, const problem::RigidMotions& rigid, const MakeSpdSolver& make, Monitor& monitor);
+  /// `coarser`: the stiffness of problem::coarser(), where it is known.
+  HeldStiffness(const problem::Problem& problem, const problem::RigidMotions& rigid, const MakeSpdSolver& make, Monitor& monitor,
+                const algebra::SparseMatrix* coarser = nullptr);
 
   const problem::RowBasis& basis() const { return basis_; }
   /// `spring`: s, force per displacement, rows; `held`: one flag an unknown of the basis; `added`: to the matrix, lower triangle, of the unknowns of

@@ -136,7 +136,7 @@ Result solve(const problem::Problem& problem, const Pdas& settings, Monitor& mon
     Stopwatch watch;
     const CoarseStart coarse = coarse_start(problem, settings, monitor);
     Pdas begun = settings;
-    begun.start = coarse.active, begun.from = coarse.state, begun.nested = false;
+    begun.start = coarse.active, begun.from = coarse.state, begun.coarser = coarse.stiffness, begun.nested = false;
     const double before = watch.lap();
     Result result = solve(problem, begun, monitor);
     if (coarse.meshes > 0) result.reason += text(", begun on ", coarse.meshes, coarse.meshes == 1 ? " coarser mesh" : " coarser meshes");

@@ -143,7 +143,7 @@ HeldStiffness& SetIteration::stiffness() {
   if (stiffness_) return *stiffness_;
   Stopwatch watch;
   monitor.phase("ordering");
-  stiffness_.emplace(problem, rigid, settings.linear ? settings.linear : factor(settings.ordering), monitor);
+  stiffness_.emplace(problem, rigid, settings.linear ? settings.linear : factor(settings.ordering), monitor, settings.coarser.get());
   result.clock.ordering += watch.lap();
   result.factor_bytes = stiffness_->solver().bytes();
   result.ordering = stiffness_->solver().method();
