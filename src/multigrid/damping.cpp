@@ -1,6 +1,10 @@
 #include "multigrid/damping.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <random>
+#include <utility>
 
 #include "multigrid/local_rows.hpp"
 
@@ -8,35 +12,49 @@ namespace dotyk::multigrid {
 
 namespace {
 
-/// A_between, for products with it.
+/// D^−1/2 A_between D^−1/2 at the rows of this rank that A_between has entries in, without those left out; it is zero elsewhere.
 class Between {
  public:
-  explicit Between(Mat A, Vec like) {
+  Between(Mat A, const std::vector<int>& left_out) : rows_(A) {
     Owned<IS, ISDestroy> columns;
-    PetscInt count = 0;
-    const PetscInt* others = nullptr;
-    check(MatMPIAIJGetSeqAIJ(A, nullptr, &rows_, &others));
-    check(MatGetSize(rows_, nullptr, &count));
-    check(ISCreateGeneral(PETSC_COMM_SELF, count, others, PETSC_COPY_VALUES, columns.put()));
-    check(VecCreateSeq(PETSC_COMM_SELF, count, theirs_.put()));
-    check(VecScatterCreate(like, columns, theirs_, nullptr, fetch_.put()));
-    check(MatCreateVecs(rows_, nullptr, own_.put()));
+    check(MatCreateVecs(A, all_.put(), nullptr));
+    check(VecSet(all_, 0));
+    check(ISCreateGeneral(PETSC_COMM_SELF, rows_.others_count, rows_.others, PETSC_COPY_VALUES, columns.put()));
+    check(VecCreateSeq(PETSC_COMM_SELF, rows_.others_count, theirs_.put()));
+    check(VecScatterCreate(all_, columns, theirs_, nullptr, fetch_.put()));
+    auto out = left_out.begin();
+    for (int row = 0; row < rows_.count(); ++row) {
+      if (out != left_out.end() && *out == row) ++out;
+      else if (rows_.other->starts[row] < rows_.other->starts[row + 1])
+        border_.push_back(row), scale_.push_back(1 / std::sqrt(std::abs(*rows_.find(row, rows_.first_row + row))));
+    }
   }
 
-  void multiply(Vec x, Vec y) {
-    check(VecScatterBegin(fetch_, x, theirs_, INSERT_VALUES, SCATTER_FORWARD));
-    check(VecScatterEnd(fetch_, x, theirs_, INSERT_VALUES, SCATTER_FORWARD));
-    PetscScalar* out = nullptr;
-    check(VecGetArrayWrite(y, &out));
-    check(VecPlaceArray(own_, out));
-    check(MatMult(rows_, theirs_, own_));
-    check(VecResetArray(own_));
-    check(VecRestoreArrayWrite(y, &out));
+  std::size_t count() const { return border_.size(); }
+
+  /// Collective, as the constructor.
+  std::vector<double> times(const std::vector<double>& v) {
+    PetscScalar* put = nullptr;
+    const PetscScalar* theirs = nullptr;
+    check(VecGetArray(all_, &put));
+    for (std::size_t k = 0; k < count(); ++k) put[border_[k]] = scale_[k] * v[k];
+    check(VecRestoreArray(all_, &put));
+    check(VecScatterBegin(fetch_, all_, theirs_, INSERT_VALUES, SCATTER_FORWARD));
+    check(VecScatterEnd(fetch_, all_, theirs_, INSERT_VALUES, SCATTER_FORWARD));
+    check(VecGetArrayRead(theirs_, &theirs));
+    std::vector<double> product(count(), 0.0);
+    for (std::size_t k = 0; k < count(); ++k)
+      for (int e = rows_.other->starts[border_[k]]; e < rows_.other->starts[border_[k] + 1]; ++e)
+        product[k] += scale_[k] * rows_.other->values[e] * theirs[rows_.other->columns[e]];
+    check(VecRestoreArrayRead(theirs_, &theirs));
+    return product;
   }
 
  private:
-  Mat rows_ = nullptr;
-  OwnedVec theirs_, own_;
+  const LocalRows rows_;
+  std::vector<int> border_;
+  std::vector<double> scale_;
+  OwnedVec all_, theirs_;
   Owned<VecScatter, VecScatterDestroy> fetch_;
 };
 
@@ -57,46 +75,34 @@ double greatest_eigenvalue(const std::vector<double>& diagonal, const std::vecto
   return high;
 }
 
-/// The diagonal of D^−1/2, with zeros at the rows `left_out`.
-OwnedVec scaling(Mat A, const std::vector<int>& left_out) {
-  OwnedVec out;
-  PetscScalar* of = nullptr;
-  check(MatCreateVecs(A, out.put(), nullptr));
-  check(MatGetDiagonal(A, out));
-  check(VecSqrtAbs(out));
-  check(VecReciprocal(out));
-  check(VecGetArray(out, &of));
-  for (const int row : left_out) of[row] = 0;
-  check(VecRestoreArray(out, &of));
-  return out;
-}
-
 }  // namespace
 
 double damping(Mat A, const std::vector<int>& solved) {
   constexpr int kSteps = 12;        // of Lanczos, from numbers at random: within 1 % on all levels tried
   constexpr double kAbove = 1.03;
-  if (ranks_of(A).alone()) return 1;
-  const OwnedVec scale = scaling(A, solved);
-  OwnedVec v, before, w, scaled;
-  for (OwnedVec* x : {&v, &before, &w, &scaled}) check(VecDuplicate(scale, x->put()));
-  Between between(A, v);
-  std::vector<double> diagonal, beside;
-  check(VecSetRandom(v, nullptr));
-  check(VecNormalize(v, nullptr));
+  const Ranks ranks = ranks_of(A);
+  if (ranks.alone()) return 1;
+  Between between(A, solved);
+  const auto dot = [&](const std::vector<double>& a, const std::vector<double>& b) { return ranks.sum(std::inner_product(a.begin(), a.end(), b.begin(), 0.0)); };
+  const auto add = [](std::vector<double>& to, double factor, const std::vector<double>& v) {
+    for (std::size_t k = 0; k < to.size(); ++k) to[k] += factor * v[k];
+  };
+  const auto normalise = [&](std::vector<double>& v) {
+    const double size = std::sqrt(dot(v, v));
+    for (double& number : v) number /= size > 0 ? size : 1;
+    return size;
+  };
+  std::minstd_rand numbers(1);
+  std::vector<double> v(between.count()), before(v.size()), diagonal, beside;
+  for (double& number : v) number = std::uniform_real_distribution<>(0, 1)(numbers);
+  normalise(v);
   for (int k = 0; k < kSteps; ++k) {
-    PetscScalar along = 0;
-    PetscReal size = 0;
-    check(VecPointwiseMult(scaled, v, scale));
-    between.multiply(scaled, w);
-    check(VecPointwiseMult(w, w, scale));
-    check(VecDot(w, v, &along));
-    check(VecAXPY(w, -along, v));
-    if (k > 0) check(VecAXPY(w, -beside.back(), before));
-    diagonal.push_back(along);
-    check(VecCopy(v, before));
-    check(VecCopy(w, v));
-    check(VecNormalize(v, &size));
+    std::vector<double> w = between.times(v);
+    diagonal.push_back(dot(w, v));
+    add(w, -diagonal.back(), v);
+    if (k > 0) add(w, -beside.back(), before);
+    before = std::exchange(v, std::move(w));
+    const double size = normalise(v);
     if (size == 0) break;
     beside.push_back(size);
   }

@@ -85,23 +85,21 @@ class PetscSolver final : public algebra::SpdSolver {
   }
 
  private:
-  /// Sends the other ranks their pieces and first changes, and returns rank 0's piece. As many pieces are made at once as there are cores. The first ones are
-  /// made before the ranks are told to begin: from then on MPI keeps the processor of each rank busy until its piece has come.
+  /// Sends the other ranks their pieces and first changes, and returns rank 0's piece. As many parcels are made at once as there are cores. The first ones are
+  /// made before the ranks are told to begin: from then on MPI keeps the processor of each rank busy until its parcel has come.
   Piece share_out(const Pieces& pieces, std::vector<Change>& first) const {
     const Ranks& ranks = workers_.ranks();
-    for (int end = ranks.count();;) {
-      const int from = std::max(0, end - cores());
-      std::vector<Piece> some(static_cast<std::size_t>(end - from));
-      parallel_for(end - from, [&](int k) { some[k] = pieces.of(from + k); });
-      if (end == ranks.count()) workers_.tell(Task::make);
-      for (int r = std::max(from, 1); r < end; ++r) {
-        send(ranks, r, some[r - from]);
-        send(ranks, r, first[r]);
-        some[r - from] = {};
+    for (int from = 1; from < ranks.count();) {
+      std::vector<Parcel> some(static_cast<std::size_t>(std::min(cores(), ranks.count() - from)));
+      parallel_for(static_cast<int>(some.size()), [&](int k) { some[k] = pieces.parcel(from + k); });
+      if (from == 1) workers_.tell(Task::make);
+      for (Parcel& parcel : some) {
+        send(ranks, from, parcel);
+        send(ranks, from, first[from]);
+        parcel = {}, ++from;
       }
-      if (from == 0) return std::move(some[0]);
-      end = from;
     }
+    return pieces.of(0);
   }
   /// Of all ranks, by the numbers of Numbering.
   Cycle::Solution solve_together(const algebra::Vector& b, double tolerance) {

@@ -1,6 +1,7 @@
 #include "multigrid/piece.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <numeric>
 #include <stdexcept>
@@ -32,18 +33,55 @@ void sort_rows(Rows& rows) {
   }
 }
 
-/// Calls visit(row, column, place) for the entries of the full matrix that a lower triangle stands for, by the numbers of Numbering. They come column by
-/// column, so that where unknowns keep their order each row gets ascending columns: those left of the diagonal belong to earlier columns of the triangle,
-/// the others to its own.
+/// Calls visit(row, column, number) for the entries of a lower triangle, column by column, by the numbers of Numbering.
 template <class Visit>
 void each_entry(const algebra::SparseMatrix& lower, const std::vector<int>& slot, Visit&& visit) {
   for (int j = 0; j < lower.cols(); ++j)
     for (int k = lower.outerIndexPtr()[j]; k < lower.outerIndexPtr()[j + 1]; ++k) {
       const int i = lower.innerIndexPtr()[k];
       if (i < j) throw std::runtime_error("multigrid: the matrix is not a lower triangle");
-      visit(slot[i], slot[j], k);
-      if (i != j) visit(slot[j], slot[i], k);
+      visit(slot[i], slot[j], lower.valuePtr()[k]);
     }
+}
+
+template <class Visit>
+void each_entry(const Triangle& triangle, Visit&& visit) {
+  for (std::size_t j = 0; j < triangle.columns.size(); ++j)
+    for (int k = triangle.starts[j]; k < triangle.starts[j + 1]; ++k) visit(triangle.rows[k], triangle.columns[j], triangle.values[k]);
+}
+
+/// The rows of a range of the full matrix that a lower triangle stands for; `each`: one of the above. Where unknowns keep their order, each row gets ascending
+/// columns: those left of the diagonal belong to earlier columns of the triangle, the others to its own.
+template <class Each>
+Rows full_rows(const Range& range, const std::vector<int>& idle, double mean, Each&& each) {
+  Rows rows;
+  std::vector<int> next(static_cast<std::size_t>(range.count()), 0);
+  const auto each_of_rows = [&](auto&& put) {
+    each([&](int i, int j, double value) {
+      if (range.has(i)) put(i - range.first, j, value);
+      if (i != j && range.has(j)) put(j - range.first, i, value);
+    });
+    for (const int i : idle)
+      if (range.has(i)) put(i - range.first, i, mean);
+  };
+  each_of_rows([&](int row, int, double) { ++next[row]; });
+  for (int& entries : next) {
+    const int begin = rows.starts.back();
+    rows.starts.push_back(begin + entries);
+    entries = begin;
+  }
+  rows.columns.resize(static_cast<std::size_t>(rows.starts.back()));
+  rows.values.resize(rows.columns.size());
+  each_of_rows([&](int row, int column, double value) {
+    const int at = next[row]++;
+    rows.columns[at] = column, rows.values[at] = value;
+  });
+  sort_rows(rows);
+  return rows;
+}
+
+Rows full_rows(const Triangle& triangle) {
+  return full_rows(Range{triangle.first, triangle.first + triangle.count}, triangle.idle, triangle.mean, [&](auto&& visit) { each_entry(triangle, visit); });
 }
 
 /// Mean of the diagonal. Throws where that is not positive.
@@ -104,11 +142,21 @@ void visit_all(Piece& p, Visit&& visit) {
   p.block = sizes[0], p.dimension = sizes[1], p.motions = sizes[2];
   p.functions.resize(static_cast<std::size_t>(sizes[3]));
   visit(p.own);
-  visit_rows(p.matrix, visit);
   for (Rows& functions : p.functions) visit_rows(functions, visit);
-  visit_rows(p.coarser, visit);
-  visit_rows(p.displaced, visit), visit_rows(p.unknowns, visit);
+  visit_rows(p.unknowns, visit);
   visit(p.modes);
+}
+
+template <class Visit>
+void visit_all(Parcel& p, Visit&& visit) {
+  visit_all(p.piece, visit);
+  for (Triangle* t : {&p.matrix, &p.coarser, &p.displaced}) {
+    std::vector<double> mean{t->mean};
+    std::vector<int> range{t->first, t->count};
+    visit(mean), visit(range);
+    t->mean = mean[0], t->first = range[0], t->count = range[1];
+    visit(t->columns), visit(t->starts), visit(t->rows), visit(t->values), visit(t->idle);
+  }
 }
 
 template <class Visit>
@@ -130,21 +178,18 @@ Pieces::Pieces(const Matrix& matrix, const Numbering& numbering) : matrix_(matri
     throw std::runtime_error("multigrid: the matrix is not compressed, or nodes are not given for each unknown");
   if (2.0 * static_cast<double>(matrix.lower.nonZeros()) > std::numeric_limits<int>::max())
     throw std::runtime_error("multigrid: the matrix has more entries than can be counted");
-  finest_ = full(matrix.lower, 0, numbering.slot(), numbering.idle());
+  finest_ = source(matrix.lower, 0, numbering.slot(), numbering.idle());
   if (matrix.coarser) coarser_ = coarser();
   if (!matrix.displaced) return;
   if (matrix.coarse) mean_diagonal(*matrix.displaced);
-  else displaced_ = full(*matrix.displaced, 0, numbering.slot(), numbering.idle());
+  else displaced_ = source(*matrix.displaced, 0, numbering.slot(), numbering.idle());
 }
 
-Pieces::Full Pieces::full(const algebra::SparseMatrix& lower, int level, std::vector<int> slot, std::vector<int> idle) const {
-  Full full{&lower, level, std::move(slot), std::move(idle), mean_diagonal(lower), std::vector<int>(static_cast<std::size_t>(numbering_.first(level).back()), 0)};
-  each_entry(lower, full.slot, [&](int row, int, int) { ++full.entries[row]; });
-  for (const int i : full.idle) full.entries[i] = 1;
-  return full;
+Pieces::Source Pieces::source(const algebra::SparseMatrix& lower, int level, std::vector<int> slot, std::vector<int> idle) {
+  return {&lower, level, std::move(slot), std::move(idle), mean_diagonal(lower)};
 }
 
-Pieces::Full Pieces::coarser() const {
+Pieces::Source Pieces::coarser() const {
   const algebra::SparseRows& functions = matrix_.coarse->front();
   std::vector<char> used(static_cast<std::size_t>(functions.cols()), 0);
   for (int i = 0; i < functions.rows(); ++i)
@@ -152,48 +197,69 @@ Pieces::Full Pieces::coarser() const {
   std::vector<int> slot, idle;
   for (std::size_t k = 0; k < used.size(); ++k) (used[k] ? slot : idle).push_back(numbering_.functions(1)[k]);
   if (static_cast<std::size_t>(matrix_.coarser->rows()) != slot.size()) throw std::runtime_error("multigrid: the coarser matrix is not one of these functions");
-  return full(*matrix_.coarser, 1, std::move(slot), std::move(idle));
+  return source(*matrix_.coarser, 1, std::move(slot), std::move(idle));
 }
 
-Rows Pieces::rows_of(int rank, const Full& full) const {
-  const Range range = range_of(rank, numbering_, full.level);
-  Rows rows;
-  for (int row = range.first; row < range.last; ++row) rows.starts.push_back(rows.starts.back() + full.entries[row]);
-  rows.columns.resize(static_cast<std::size_t>(rows.starts.back()));
-  rows.values.resize(rows.columns.size());
-  std::vector<int> next(rows.starts.begin(), rows.starts.end() - 1);
-  const auto put = [&](int row, int column, double value) {
-    if (!range.has(row)) return;
-    const int at = next[row - range.first]++;
-    rows.columns[at] = column, rows.values[at] = value;
+Rows Pieces::rows_of(int rank, const Source& source) const {
+  if (!source.lower) return {};
+  return full_rows(range_of(rank, numbering_, source.level), source.idle, source.mean, [&](auto&& visit) { each_entry(*source.lower, source.slot, visit); });
+}
+
+Triangle Pieces::triangle_of(int rank, const Source& source) const {
+  Triangle out;
+  if (!source.lower) return out;
+  const Range range = range_of(rank, numbering_, source.level);
+  out.first = range.first, out.count = range.count(), out.mean = source.mean;
+  std::copy_if(source.idle.begin(), source.idle.end(), std::back_inserter(out.idle), [&](int i) { return range.has(i); });
+  const auto each_of_rank = [&](auto&& visit) {
+    each_entry(*source.lower, source.slot, [&](int i, int j, double value) {
+      if (range.has(i) || range.has(j)) visit(i, j, value);
+    });
   };
-  each_entry(*full.lower, full.slot, [&](int row, int column, int place) { put(row, column, full.lower->valuePtr()[place]); });
-  for (const int i : full.idle) put(i, i, full.mean);
-  sort_rows(rows);
-  return rows;
+  std::size_t entries = 0;
+  each_of_rank([&](int, int, double) { ++entries; });
+  out.rows.reserve(entries), out.values.reserve(entries);
+  each_of_rank([&](int i, int j, double value) {
+    if (out.columns.empty() || out.columns.back() != j) out.columns.push_back(j), out.starts.push_back(out.starts.back());
+    out.rows.push_back(i), out.values.push_back(value), ++out.starts.back();
+  });
+  return out;
 }
 
-Piece Pieces::of(int rank) const {
+Piece Pieces::without_matrices(int rank) const {
   const int meshes = matrix_.coarse ? static_cast<int>(matrix_.coarse->size()) : 0;
-  const Range finest = range_of(rank, numbering_, 0);
   Piece p;
   p.block = numbering_.block(), p.dimension = matrix_.dimension, p.motions = static_cast<int>(matrix_.near_kernel.cols());
   for (int l = 0; l <= meshes; ++l) p.own.push_back(range_of(rank, numbering_, l).count());
-  p.matrix = rows_of(rank, finest_);
   for (int l = 0; l < meshes; ++l)
     p.functions.push_back(some_rows((*matrix_.coarse)[l], l == 0 ? &numbering_.slot() : &numbering_.functions(l), &numbering_.functions(l + 1),
                                     range_of(rank, numbering_, l)));
-  if (coarser_.lower) p.coarser = rows_of(rank, coarser_);
-  if (displaced_.lower) p.displaced = rows_of(rank, displaced_);
-  if (matrix_.unknowns) p.unknowns = some_rows(*matrix_.unknowns, &numbering_.slot(), &numbering_.slot(), finest, numbering_.idle());
+  if (matrix_.unknowns) p.unknowns = some_rows(*matrix_.unknowns, &numbering_.slot(), &numbering_.slot(), range_of(rank, numbering_, 0), numbering_.idle());
   p.modes = some_modes(matrix_.near_kernel, meshes > 0 ? numbering_.functions(meshes) : numbering_.slot(), range_of(rank, numbering_, meshes));
   return p;
 }
 
-void send(const Ranks& ranks, int to, Piece& piece) {
-  visit_all(piece, [&](const auto& numbers) { ranks.send(to, numbers); });
+Piece Pieces::of(int rank) const {
+  Piece p = without_matrices(rank);
+  p.matrix = rows_of(rank, finest_), p.coarser = rows_of(rank, coarser_), p.displaced = rows_of(rank, displaced_);
+  return p;
 }
-Piece receive_piece(const Ranks& ranks, int from) { return receive_whole<Piece>(ranks, from); }
+
+Parcel Pieces::parcel(int rank) const {
+  return {without_matrices(rank), triangle_of(rank, finest_), triangle_of(rank, coarser_), triangle_of(rank, displaced_)};
+}
+
+void send(const Ranks& ranks, int to, Parcel& parcel) {
+  visit_all(parcel, [&](const auto& numbers) { ranks.send(to, numbers); });
+}
+Piece receive_piece(const Ranks& ranks, int from) {
+  Parcel parcel = receive_whole<Parcel>(ranks, from);
+  Piece piece = std::move(parcel.piece);
+  piece.coarser = full_rows(parcel.coarser), piece.displaced = full_rows(parcel.displaced);
+  parcel.coarser = {}, parcel.displaced = {};
+  piece.matrix = full_rows(parcel.matrix);
+  return piece;
+}
 void send(const Ranks& ranks, int to, Change& change) {
   visit_all(change, [&](const auto& numbers) { ranks.send(to, numbers); });
 }

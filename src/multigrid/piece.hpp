@@ -27,31 +27,48 @@ struct Piece {
   std::vector<double> modes;     ///< near kernel, by columns: on the finest level, or the coarsest mesh
 };
 
+/// The entries of a lower triangle that one rank's rows of the full matrix are made from, by the numbers of Numbering.
+struct Triangle {
+  int first = 0, count = 0;                   ///< those rows
+  std::vector<int> columns, starts{0}, rows;  ///< of entries; columns one after the other
+  std::vector<double> values;
+  std::vector<int> idle;                      ///< rows without unknown
+  double mean = 0;                            ///< their diagonal
+};
+
+/// A piece on its way: half the entries are sent, and none of the rows takes memory of the sender.
+struct Parcel {
+  Piece piece;  ///< without matrices
+  Triangle matrix, coarser, displaced;
+};
+
 /// Shares a matrix out. The matrix and the numbering must outlive this object.
 class Pieces {
  public:
   /// Throws std::runtime_error where no pieces can be made: a diagonal that is not positive, more entries than an int counts.
   Pieces(const Matrix& matrix, const Numbering& numbering);
   Piece of(int rank) const;
+  Parcel parcel(int rank) const;
 
  private:
-  /// The full matrix of one level that a lower triangle stands for, with idle rows.
-  struct Full {
+  /// A lower triangle of one level.
+  struct Source {
     const algebra::SparseMatrix* lower = nullptr;
     int level = 0;
-    std::vector<int> slot, idle;  ///< number of each row of the triangle; numbers of the idle rows
+    std::vector<int> slot, idle;  ///< number of each row of the triangle; numbers of the rows without unknown
     double mean = 0;              ///< of the diagonal
-    std::vector<int> entries;     ///< of each row
   };
-  Full full(const algebra::SparseMatrix& lower, int level, std::vector<int> slot, std::vector<int> idle) const;
-  Full coarser() const;
-  Rows rows_of(int rank, const Full& full) const;
+  static Source source(const algebra::SparseMatrix& lower, int level, std::vector<int> slot, std::vector<int> idle);
+  Source coarser() const;
+  Rows rows_of(int rank, const Source& source) const;
+  Triangle triangle_of(int rank, const Source& source) const;
+  Piece without_matrices(int rank) const;
 
   const Matrix& matrix_;
   const Numbering& numbering_;
-  Full finest_, displaced_, coarser_;  // the second where aggregates are made of it
+  Source finest_, coarser_, displaced_;  // the third where aggregates are made of it
 };
-void send(const Ranks& ranks, int to, Piece& piece);
+void send(const Ranks& ranks, int to, Parcel& parcel);
 Piece receive_piece(const Ranks& ranks, int from);
 
 /// How a matrix differs from the one before, as far as one rank's rows of the finest level are concerned.
