@@ -32,6 +32,7 @@ class Cycle {
 
  private:
   void make();
+  int first_swept_twice() const;  ///< the level
   void damp();  ///< sets the relaxation of the smoothers of coarser levels
 
   const Ranks ranks_;
