@@ -1,0 +1,75 @@
+#include <doctest/doctest.h>
+
+#include <cstdlib>
+
+#include "algebra/congruent.hpp"
+#include "built.hpp"
+#include "elastic_cube.hpp"
+#include "multigrid/multigrid.hpp"
+
+using namespace dotyk;
+using algebra::SparseRows;
+using algebra::Vector;
+
+namespace {
+
+/// The unknowns of a cube of n³ cells by the displacements of one of (n/2)³ cells: a node that this has not is in the middle of one of its edges. Columns
+/// of held nodes are empty. Without the empty ones where `used` is told.
+SparseRows functions_of(const test::ElasticCube& cube, int n, bool used) {
+  const int half = n / 2 + 1;
+  algebra::Triplets entries;
+  std::vector<int> column(static_cast<std::size_t>(3 * half * half * half), used ? -1 : 0);
+  const auto number = [&](const int (&at)[3], int c) { return 3 * ((at[2] * half + at[1]) * half + at[0]) + c; };
+  const auto each = [&](auto&& visit) {
+    for (std::size_t i = 0; i < cube.node.size(); ++i) {
+      int low[3], high[3];
+      for (int k = 0; k < 3; ++k) {
+        const int at = static_cast<int>(std::lround(cube.point[i][k] * n));
+        low[k] = at / 2, high[k] = (at + 1) / 2;
+      }
+      visit(static_cast<int>(i), number(low, cube.component[i]), low[2]), visit(static_cast<int>(i), number(high, cube.component[i]), high[2]);
+    }
+  };
+  int count = 0;
+  each([&](int, int j, int height) {
+    if (height > 0) column[j] = 0;
+  });
+  for (int& j : column) j = j < 0 ? -1 : count++;
+  each([&](int i, int j, int height) {
+    if (height > 0) entries.emplace_back(i, column[j], 0.5);
+  });
+  return algebra::from_triplets<SparseRows>(static_cast<int>(cube.node.size()), count, entries);
+}
+
+}  // namespace
+
+TEST_CASE("a coarser matrix that is known stands for the one that would be computed") {
+  if (test::not_built()) return;
+  Monitor monitor;
+  constexpr int n = 8;
+  const test::ElasticCube cube = test::cube_on_its_bottom(n);
+  const std::vector<SparseRows> coarse{functions_of(cube, n, false)};
+  const algebra::SparseMatrix coarser = algebra::congruent(cube.lower, functions_of(cube, n, true));
+  const algebra::DenseMatrix motions(coarse[0].cols(), 0);
+  multigrid::Matrix matrix{cube.lower, cube.node, motions};
+  matrix.coarse = &coarse;
+  const auto computed = multigrid::make_solver(matrix, monitor);
+  matrix.coarser = &coarser;
+  const auto known = multigrid::make_solver(matrix, monitor);
+  for (const double radius : {0.3, 0.0, 0.45, 0.3}) {  // what is held changes coarse functions, and back
+    const std::vector<char> held = test::disc_on_top(cube, radius);
+    const auto changed = test::entries(test::holding(cube.lower, held));
+    const Vector b = test::pressure_on_top(cube, held);
+    REQUIRE(computed->set(changed, held));
+    REQUIRE(known->set(changed, held));
+    const int before[2] = {computed->iterations(), known->iterations()};
+    const Vector x = computed->solve(b, 1e-12), y = known->solve(b, 1e-12);
+    CHECK((x - y).norm() <= 1e-8 * x.norm());  // the condition, 2200, times the tolerance
+    const int of_computed = computed->iterations() - before[0];
+    CHECK(of_computed < 30);
+    CHECK(std::abs(known->iterations() - before[1] - of_computed) <= 1);  // the same but for rounding
+  }
+  const algebra::SparseMatrix other = cube.lower;
+  matrix.coarser = &other;
+  CHECK_THROWS(multigrid::make_solver(matrix, monitor));
+}
