@@ -84,7 +84,7 @@ void Cycle::make() {
   const int twice = first_swept_twice();
   for (int l = 0; l + 1 < levels(); ++l) {
     const int theirs = levels() - 1 - l;  // PETSc counts from the coarsest
-    const int sweeps = hierarchy_.meshes() > 0 && l >= twice ? 2 : 1;
+    const int sweeps = l >= twice ? 2 : 1;
     check(PCMGSetInterpolation(pc, theirs, hierarchy_.interpolation(l)));
     check(PCMGGetSmootherDown(pc, theirs, &ksp));
     make_smoother(ksp, hierarchy_.matrix(l), SOR_LOCAL_FORWARD_SWEEP, sweeps);
@@ -105,11 +105,12 @@ void Cycle::make() {
 
 /// A second sweep costs little where a level has few unknowns. On the second coarser mesh and below (1/64 of the unknowns) it saves a tenth of the
 /// iterations with friction: 28 instead of 31 on a cube of 64³ cells. Where aggregates follow the coarsest mesh, they converge more slowly than meshes, and a
-/// second sweep from that mesh on saves a fifth: 22 instead of 27 on 76³ cells, with aggregates below 19³. A sweep of one rank uses old values of the others;
-/// where ranks have few unknowns, most of which are near others', the second sweep therefore begins one level earlier.
+/// second sweep from that mesh on saves a fifth: 22 instead of 27 on 76³ cells, with aggregates below 19³. During a sweep a rank uses the values that other
+/// ranks had before it. Where each rank has few unknowns, most of them are coupled to other ranks, and the second sweep begins one level earlier.
 int Cycle::first_swept_twice() const {
   constexpr PetscInt kFew = 20'000;  // unknowns of a rank
-  if (hierarchy_.meshes() == 0 || ranks_.alone()) return std::min(hierarchy_.meshes(), 2);
+  if (hierarchy_.meshes() == 0) return levels();  // none: aggregates alone
+  if (ranks_.alone()) return std::min(hierarchy_.meshes(), 2);
   PetscInt unknowns = 0;
   check(MatGetSize(hierarchy_.matrix(1), &unknowns, nullptr));
   return std::min(hierarchy_.meshes(), unknowns < kFew * ranks_.count() ? 1 : 2);

@@ -12,7 +12,8 @@ namespace dotyk::multigrid {
 
 namespace {
 
-/// D^−1/2 A_between D^−1/2 at the rows of this rank that A_between has entries in, without those left out; it is zero elsewhere.
+/// The matrix D^−1/2 A_between D^−1/2. Only this rank's border rows are stored: those with entries in columns of other ranks, except the rows left out.
+/// All other rows are zero.
 class Between {
  public:
   Between(Mat A, const std::vector<int>& left_out) : rows_(A) {

@@ -22,7 +22,7 @@ OwnedMat with_pattern(const Ranks& ranks, const Rows& pattern, int own_columns, 
   return m;
 }
 
-/// Have so many rows, from `first` on, the same columns?
+/// Whether the rows first … first + count − 1 have the same columns.
 bool are_alike(const LocalRows& A, int first, int count) {
   const auto alike = [&](const RowsView& part) {
     const auto columns = [&](int row) { return std::span(part.columns + part.starts[row], part.columns + part.starts[row + 1]); };
@@ -147,7 +147,7 @@ void Galerkin::add_rows(std::span<const int> rows, const LocalRows& A) {
       const auto [node, member] = node_of(part.columns[begin + at]);
       if (node != last) of_node = product_.at(last = node, n * m);
       double* to = of_node + member * m;
-      if (count == 3) {
+      if (count == 3) {  // the usual number, a constant for the compiler
         for (int e = 0; e < 3; ++e) to[factors[e].member] += factors[e].of_row[at] * factors[e].number;
       } else if (count < 3) {
         for (std::size_t e = 0; e < count; ++e) to[factors[e].member] += factors[e].of_row[at] * factors[e].number;
@@ -163,7 +163,7 @@ void Galerkin::add_rows(std::span<const int> rows, const LocalRows& A) {
   if (A.other) add_part(*A.other, [&](int column) { return std::pair(other_node_[column], A.others[column] % n); });
 }
 
-/// Adds P_kᵀ (A P)_kJ to sum_ for all fine nodes k, and empties product_.
+/// Adds P_kᵀ (A P)_kJ to sum_, for all fine nodes k in product_. Then product_ is empty.
 template <int columns>
 void Galerkin::add_product(const LocalRows& A, const RowsView& P) {
   const int m = columns > 0 ? columns : size_;

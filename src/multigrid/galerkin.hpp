@@ -37,7 +37,7 @@ class Galerkin {
     std::vector<double> numbers;
   };
 
-  // Sizes that are known to the compiler; 0: any.
+  // Template arguments: rows of a fine node and of a coarse one, as constants for the compiler; 0: fine_, size_ are used.
   template <int rows_of_node, int columns>
   void compute_block(int block, const LocalRows& A, const RowsView& P);
   template <int rows_of_node, int columns>

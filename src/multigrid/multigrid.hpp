@@ -28,7 +28,8 @@ struct Matrix {
   /// is no coarser mesh, and all levels are aggregates.
   const std::vector<algebra::SparseRows>* coarse = nullptr;
   int dimension = 3;
-  /// The lower triangle of PᵀKP for K = `lower` and P, the first of `coarse` without its empty columns, where it is known already.
+  /// The matrix of the next coarser mesh: the lower triangle of PᵀKP, where K is `lower` and P the first of `coarse` without its empty columns. Null: it
+  /// is computed.
   const algebra::SparseMatrix* coarser = nullptr;
   /// Other numbers of some entries, as for set(), with which `lower` is positive definite; null: none.
   const algebra::Triplets* changed = nullptr;

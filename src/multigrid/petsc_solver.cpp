@@ -85,8 +85,8 @@ class PetscSolver final : public algebra::SpdSolver {
   }
 
  private:
-  /// Sends the other ranks their pieces and first changes, and returns rank 0's piece. As many parcels are made at once as there are cores. The first ones are
-  /// made before the ranks are told to begin: from then on MPI keeps the processor of each rank busy until its parcel has come.
+  /// Sends each other rank its parcel and its first changes; returns the piece of rank 0. Parcels are made in parallel, as many at a time as there are cores.
+  /// The first ones are made before the ranks are told to begin, because a rank that waits for its parcel in MPI keeps a core busy.
   Piece share_out(const Pieces& pieces, std::vector<Change>& first) const {
     const Ranks& ranks = workers_.ranks();
     for (int from = 1; from < ranks.count();) {

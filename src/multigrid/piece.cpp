@@ -50,8 +50,8 @@ void each_entry(const Triangle& triangle, Visit&& visit) {
     for (int k = triangle.starts[j]; k < triangle.starts[j + 1]; ++k) visit(triangle.rows[k], triangle.columns[j], triangle.values[k]);
 }
 
-/// The rows of a range of the full matrix that a lower triangle stands for; `each`: one of the above. Where unknowns keep their order, each row gets ascending
-/// columns: those left of the diagonal belong to earlier columns of the triangle, the others to its own.
+/// Rows of the full symmetric matrix, made from its lower triangle; `each` calls one of the functions above. If unknowns keep their order, columns come
+/// ascending in each row: entries left of the diagonal come from earlier columns of the triangle, the others from the row's own column.
 template <class Each>
 Rows full_rows(const Range& range, const std::vector<int>& idle, double mean, Each&& each) {
   Rows rows;

@@ -217,8 +217,7 @@ MakeSpdSolver multigrid(Levels levels, double most_iterations) {
     multigrid::Matrix matrix{s.lower, nodes, motions};
     matrix.changed = &s.changed;
     matrix.most_iterations = most_iterations;
-    if (!coarse.empty()) matrix.coarse = &coarse, matrix.dimension = s.problem.blocks[0].coarse.dimension;
-    if (levels == Levels::meshes) matrix.coarser = s.coarser;
+    if (!coarse.empty()) matrix.coarse = &coarse, matrix.dimension = s.problem.blocks[0].coarse.dimension, matrix.coarser = s.coarser;
     if (s.basis.trivial()) return multigrid::make_solver(matrix, s.monitor);
     const SparseMatrix K = held_slightly(s.problem), unknowns = s.basis.of_displacements(s.problem);
     matrix.displaced = &K, matrix.unknowns = &unknowns;
