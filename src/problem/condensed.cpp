@@ -1,6 +1,7 @@
 #include "problem/condensed.hpp"
 
 #include "algebra/dense/dense.hpp"
+#include "algebra/direct/factor_in_threads.hpp"
 #include "algebra/direct/stop_factoring.hpp"
 #include "base/error.hpp"
 #include "base/memory.hpp"
@@ -54,33 +55,35 @@ std::vector<int> rows_present(const SparseRows& rows) {
 
 }  // namespace
 
-CondensedBlock condense(const Problem& problem, const Block& block, algebra::Ordering ordering, Clock& clock,
-                        Monitor& monitor) {
+std::vector<CondensedBlock> condense(const Problem& problem, algebra::Ordering ordering, Clock& clock, Monitor& monitor) {
   Stopwatch watch;
-  const SparseRows rows = problem.rows_of(block);
-  monitor.phase(text("ordering '", block.name, "' (", block.size(), " unknowns)"));
-  const Grouping groups = apart(block, rows);
-  CondensedBlock part{{block.K, groups.of_unknown, groups.last, block.kernel, ordering}, {}, {}, block.first, block.size()};
+  std::vector<CondensedBlock> parts;
+  std::vector<double> flops;
+  for (const Block& block : problem.blocks) {  // one after another: METIS draws its random numbers from the C library
+    monitor.check();
+    monitor.phase(text("ordering '", block.name, "' (", block.size(), " unknowns)"));
+    const SparseRows rows = problem.rows_of(block);
+    const Grouping groups = apart(block, rows);
+    algebra::Condensation condensation(block.K, groups.of_unknown, groups.last, block.kernel, ordering);
+    SparseRows on_boundary = restrict_columns(rows, condensation.boundary());
+    flops.push_back(condensation.cholesky().flops());
+    parts.push_back({std::move(condensation), std::move(on_boundary), {}, block.first, block.size()});
+  }
   clock.ordering += watch.lap();
-  monitor.check();
-  monitor.phase(text("factoring '", block.name, "' (", part.condensation.cholesky().method(), ", ",
-                     part.condensation.cholesky().flops() * 1e-9, " Gflop)"));
-  const algebra::StopFactoring stop(monitor);
-  if (!part.condensation.factor(block.K)) {
-    const int unknown = part.condensation.failed_unknown();
+  const auto phase = [&](int b) {
+    return text("factoring '", problem.blocks[b].name, "' (", parts[b].condensation.cholesky().method(), ", ", flops[b] * 1e-9, " Gflop)");
+  };
+  algebra::factor_in_threads(flops, phase, monitor, [&](int b) {
+    const Block& block = problem.blocks[b];
+    if (parts[b].condensation.factor(block.K)) return;
+    const int unknown = parts[b].condensation.failed_unknown();
     throw InputError(text("the stiffness of '", block.name, "' is singular",
                           unknown >= 0 ? text(" (node ", block.node[unknown] + 1, " is not held)") : "",
                           block.kernel.cols() > 0 ? text(" beyond its ", block.kernel.cols(), " rigid motions") : "",
                           ": a material, spring or mesh value is out of range, or cells hang together at single nodes only"));
-  }
+  });
   clock.factor += watch.lap();
-  monitor.check();
-
-  monitor.phase(text("condensing '", block.name, "' onto ", part.condensation.boundary().size(),
-                     " contact unknowns"));
-  part.rows = restrict_columns(rows, part.condensation.boundary());
-  clock.iterate += watch.lap();
-  return part;
+  return parts;
 }
 
 CondensingWork work_of_condensing(const Problem& problem) {
@@ -107,8 +110,9 @@ CondensedProblem::CondensedProblem(const Problem& problem, const RigidMotions& r
   N_ = rigid.noticed_N;
   unnoticed_ = unnoticed_displacements(problem, rigid);
   clock.iterate += watch.lap();
-  for (const Block& block : problem.blocks) add(problem, block, ordering, clock, monitor);
+  std::vector<CondensedBlock> parts = condense(problem, ordering, clock, monitor);
   watch.lap();
+  for (CondensedBlock& part : parts) add(std::move(part), monitor);
   set_load(problem, rigid);
   clock.iterate += watch.lap();
 }
@@ -141,12 +145,11 @@ CondensedProblem CondensedProblem::missing(const Vector& lambda, const Vector& x
   return rest;
 }
 
-void CondensedProblem::add(const Problem& problem, const Block& block, algebra::Ordering ordering,
-                           Clock& clock, Monitor& monitor) {
-  Part part{condense(problem, block, ordering, clock, monitor), modes_};
+void CondensedProblem::add(CondensedBlock block, Monitor& monitor) {
+  Part part{std::move(block), modes_};
   monitor.check();
+  monitor.phase(text("condensing onto ", part.condensation.boundary().size(), " contact unknowns"));
   const algebra::StopFactoring stop(monitor);
-  Stopwatch watch;
   // Only the rows present on this block make columns of the half compliance.
   const std::vector<int> present = rows_present(part.rows);
   const DenseMatrix own = algebra::gram(part.condensation.half_compliance(algebra::pick_rows(part.rows, present)));
@@ -154,7 +157,6 @@ void CondensedProblem::add(const Problem& problem, const Block& block, algebra::
     for (std::size_t i = 0; i < present.size(); ++i) W_(present[i], present[j]) += own(i, j);
   modes_ += part.condensation.kernel_size();
   parts_.push_back(std::move(part));
-  clock.iterate += watch.lap();
 }
 
 Vector CondensedProblem::jump(const Vector& lambda, const Vector& alpha) const {

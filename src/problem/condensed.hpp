@@ -31,9 +31,8 @@ struct CondensedBlock {
   void take_load(const algebra::Vector& f) { load = condensation.condense(f); }
 };
 
-/// Orders, factors and condenses a block, without its load; adds its times to `clock`. Throws InputError where it is not held.
-CondensedBlock condense(const Problem& problem, const Block& block, algebra::Ordering ordering, Clock& clock,
-                        Monitor& monitor);
+/// Orders the blocks, factors them side by side and condenses them, without their loads; adds its times to `clock`. Throws InputError where one is not held.
+std::vector<CondensedBlock> condense(const Problem& problem, algebra::Ordering ordering, Clock& clock, Monitor& monitor);
 
 /// What condensing takes, as the orderings predict; `bytes` with those of dense_bytes().
 struct CondensingWork {
@@ -86,8 +85,7 @@ class CondensedProblem {
   struct Part : CondensedBlock {
     int first_mode;
   };
-  void add(const Problem& problem, const Block& block, algebra::Ordering ordering, Clock& clock,
-           Monitor& monitor);
+  void add(CondensedBlock block, Monitor& monitor);
   /// Puts together what `of` makes of each part and its rigid motion on Γ.
   template <class Of>
   algebra::Vector together(const algebra::Vector& alpha, const Of& of) const;

@@ -1,21 +1,23 @@
 -- What contact costs on parts with free meshes: four of them from Gmsh, against one linear solve of the same bodies glued.
 --
---   OPENBLAS_NUM_THREADS=1 ./dotyk scripts/studies/bench/gmsh_parts.lua [NODES…] [PARTS…] [aggregates]
+--   OPENBLAS_NUM_THREADS=1 ./dotyk scripts/studies/bench/gmsh_parts.lua [NODES…] [PARTS…] [aggregates] [runs=5]
 --
 -- A lug on a pin, a ball in a socket, a pipe's flange on its gasket and a wheel on a rail, P1, quarters or sectors of them, meshes that do not match;
 -- glued, frictionless, and with Coulomb's coefficient 0.2; by the default method or, with the word aggregates, by algebraic multigrid. For each: seconds
--- of the solve, times the glued bodies', and iterations (of conjugate gradients, too, by multigrid); and the most memory that the process has had.
+-- of the solve, times the glued bodies', and iterations (of conjugate gradients, too, by multigrid); and the most memory that the process has had. The
+-- three are taken in turn, runs= times, 1 unless given; medians of the seconds and of the runs' ratios.
 -- NODES, 10000 unless given, are met to a tenth. PARTS: some of lug, ball, flange and wheel, all of them unless given.
 
-local sizes <const>, names, method = {}, {}, nil
+local sizes <const>, names, method, runs = {}, {}, nil, 1
 for _, word in ipairs(arg) do
-  if tonumber(word) then sizes[#sizes + 1] = tonumber(word)
+  if word:match "^runs=%d+$" then runs = tonumber(word:match "%d+")
+  elseif tonumber(word) then sizes[#sizes + 1] = tonumber(word)
   elseif word == "aggregates" then method = dotyk.solver.multigrid{ levels = "aggregates" }
   else names[#names + 1] = word end
 end
 if #sizes == 0 then sizes[1] = 10000 end
 if #names == 0 then names = { "lug", "ball", "flange", "wheel" } end
-local peak_memory <const> = include "../../lib/peak_memory.lua"
+local peak_memory <const>, median <const> = include "../../lib/peak_memory.lua", include "../../lib/punch_scenes.lua".median
 local steel <const> = dotyk.material{ E = 210e3, nu = 0.3 }
 
 -- 1. Bodies: geometry in Gmsh's language, with the greatest edge h where they touch.
@@ -155,12 +157,19 @@ for _, count in ipairs(sizes) do
   for _, part in ipairs(names) do
     assert(parts[part], "there is no part " .. part)
     local h <const> = with_nodes(part, count)
-    local line, glued
-    for _, join in ipairs(joins) do
-      local s <const> = solved(part, h, join)
-      glued = glued or s.time.total
+    local seconds <const>, times <const>, last <const> = {}, {}, {}
+    for k in ipairs(joins) do seconds[k], times[k] = {}, {} end
+    for run = 1, runs do
+      for k, join in ipairs(joins) do
+        last[k] = solved(part, h, join)
+        seconds[k][run] = last[k].time.total
+        times[k][run] = seconds[k][run] / seconds[1][run]
+      end
+    end
+    local line = ("%-8s %8d"):format(part, last[1].unknowns // 3)
+    for k, s in ipairs(last) do
       local cg <const> = s.multigrid and (" %3d cg"):format(s.multigrid.cg) or ""
-      line = (line or ("%-8s %8d"):format(part, s.unknowns // 3)) .. ("  %8.2f s  x%.2f %3d it"):format(s.time.total, s.time.total / glued, s.iterations) .. cg
+      line = line .. ("  %8.2f s  x%.2f %3d it"):format(median(seconds[k]), median(times[k]), s.iterations) .. cg
     end
     print(line .. ("  %6.2f GB"):format(peak_memory()))
   end

@@ -45,12 +45,13 @@ void reserve_blas_buffer() {
   static_cast<void>(taken);
 }
 
+bool blas_shares_out(double flops) { return held_to_one == 0 && flops > kWorthSharing && all_threads() > 1; }
+
 BlasThreads::BlasThreads(double flops) {
   reserve_blas_buffer();
   omp_set_max_active_levels(0);  // of this thread: its loops stay on it
   if (held_to_one > 0) return;
-  const int all = all_threads();
-  openblas_set_num_threads(flops > kWorthSharing ? all : 1);
+  openblas_set_num_threads(blas_shares_out(flops) ? all_threads() : 1);
 }
 
 BlasThreads::~BlasThreads() {

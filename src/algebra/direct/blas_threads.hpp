@@ -6,6 +6,9 @@ namespace dotyk::algebra {
 /// (ulimit -v): they are taken here, once, or InputError is thrown. The classes below call it.
 void reserve_blas_buffer();
 
+/// Would a BlasThreads of so many flops use more than one thread?
+bool blas_shares_out(double flops);
+
 /// While it lives, BLAS calls use all threads it started with (OPENBLAS_NUM_THREADS, else the cores) if the work ahead is worth it, else
 /// one; afterwards one again. In many small products threads wait for each other (measured: 1.3 s on two against 0.85 s on one, a plane mesh of
 /// 262 656 unknowns). CHOLMOD's own loops run on one thread from here on: threads would take half more time (0.52 s against 0.30 s, 100 000 unknowns

@@ -150,17 +150,15 @@ Permutation order(const SparseMatrix& lower, const std::vector<int>& node,
     result.flops = flops;
     result.method = method;
   };
-  if (choice != Ordering::nested_dissection) {
-    take_if_better(minimum_degree(view, member, common), member.empty() ? "AMD" : "CAMD");
-    // With many nodes to come last, along all edges of a plate, CAMD fills up to twice as much as these on some meshes.
-    if (!member.empty() && result.flops > kSecondFlopsPerNode * graph.size())
-      take_if_better(interior_minimum_degree(graph, member, common), "AMD");
-    if (!member.empty() && result.flops > kThirdFlopsPerNode * graph.size())
-      take_if_better(minimum_degree(view, none, common), "AMD");
-  }
-  if (choice == Ordering::nested_dissection ||
-      (choice == Ordering::automatic && result.flops > kDissectionFlopsPerNode * graph.size()))
+  const auto takes_more_than = [&](double flops_per_node) { return result.flops > flops_per_node * graph.size(); };
+  if (choice != Ordering::nested_dissection) take_if_better(minimum_degree(view, member, common), member.empty() ? "AMD" : "CAMD");
+  if (choice == Ordering::nested_dissection || (choice == Ordering::automatic && takes_more_than(kDissectionFlopsPerNode))) {
     take_if_better(nested_dissection(view, common), "METIS");
+  } else if (!member.empty()) {
+    // With many nodes to come last, along all edges of a plate, CAMD fills up to twice as much as these on some meshes.
+    if (takes_more_than(kSecondFlopsPerNode)) take_if_better(interior_minimum_degree(graph, member, common), "AMD");
+    if (takes_more_than(kThirdFlopsPerNode)) take_if_better(minimum_degree(view, none, common), "AMD");
+  }
   result.order.reserve(node.size());
   for (int k : nodes)
     for (int i = graph.first[k]; i < graph.first[k + 1]; ++i) result.order.push_back(i);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "algebra/direct/factor_in_threads.hpp"
 #include "base/memory.hpp"
 #include "base/stopwatch.hpp"
 #include "base/text.hpp"
@@ -45,7 +46,9 @@ void DualProblem::analyse(algebra::Ordering ordering, Monitor& monitor) {
 void DualProblem::factor(Monitor& monitor) {
   std::vector<double> flops;
   for (const auto& inverse : inverses_) flops.push_back(inverse.cholesky().flops());
-  factor_in_threads(flops, "factoring piece", monitor, [&](int kind) {
+  int begun = 0;
+  const auto phase = [&](int) { return text("factoring piece ", ++begun, " of ", flops.size()); };
+  algebra::factor_in_threads(flops, phase, monitor, [&](int kind) {
     const Piece& first = torn_.pieces[kinds_[kind].front()];
     if (!inverses_[kind].factor(*first.K)) refuse_singular(first, inverses_[kind].failed_unknown());
   });

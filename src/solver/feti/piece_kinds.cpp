@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <mutex>
 #include <numeric>
 
 #include "algebra/dense/dense.hpp"
 #include "algebra/direct/blas_threads.hpp"
-#include "algebra/direct/stop_factoring.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "base/text.hpp"
@@ -121,27 +119,6 @@ Vector through_touched(const TornProblem& torn, const std::vector<Batch>& batche
 Vector on_pieces(const TornProblem& torn, const std::vector<Batch>& batches, const Vector& f, const OnColumns& A) {
   return on_segments(batches, f, [&](int p) { return torn.pieces[p].first; },
                      [&](int p) { return torn.pieces[p].f->size(); }, A);
-}
-
-void factor_in_threads(const std::vector<double>& flops, const std::string& what, Monitor& monitor,
-                       const std::function<void(int)>& factor) {
-  std::vector<int> order(flops.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return flops[a] > flops[b]; });
-  std::mutex watching;
-  int begun = 0;
-  const auto one = [&](int k) {
-    {
-      const std::lock_guard lock(watching);
-      monitor.check();
-      monitor.phase(text(what, " ", ++begun, " of ", flops.size()));
-    }
-    const algebra::StopFactoring stop(monitor);
-    factor(order[k]);
-  };
-  if (order.size() == 1) return one(0);
-  const algebra::OneBlasThread single;
-  parallel_for(static_cast<int>(order.size()), one, single.workers());
 }
 
 void refuse_singular(const Piece& piece, int unknown) {

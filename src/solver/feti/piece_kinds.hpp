@@ -39,11 +39,6 @@ algebra::Vector through_touched(const TornProblem& torn, const std::vector<Batch
 algebra::Vector on_pieces(const TornProblem& torn, const std::vector<Batch>& batches, const algebra::Vector& f,
                           const OnColumns& A);
 
-/// factor(k) for every k, the greatest first, in threads (a single one with all threads for its products). Between them
-/// the monitor is told "what 3 of 64" and asked whether to stop. `flops`: of each.
-void factor_in_threads(const std::vector<double>& flops, const std::string& what, Monitor& monitor,
-                       const std::function<void(int)>& factor);
-
 /// Throws the InputError that K of a piece has more motions for kernel than said. `unknown`: where, or -1.
 [[noreturn]] void refuse_singular(const Piece& piece, int unknown);
 

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "algebra/dense/decompositions.hpp"
+#include "algebra/direct/factor_in_threads.hpp"
 #include "base/memory.hpp"
 #include "base/text.hpp"
 
@@ -75,7 +76,9 @@ PieceStiffness::PieceStiffness(const DualProblem& dual, algebra::Ordering orderi
   require_memory(factor_bytes(), text("the factors of the insides of ", insides_.size(), " pieces"));
   std::vector<double> flops;
   for (const Inside& inside : insides_) flops.push_back(inside.inverse.cholesky().flops());
-  factor_in_threads(flops, "factoring the inside of piece", monitor, [&](int k) {
+  int begun = 0;
+  const auto phase = [&](int) { return text("factoring the inside of piece ", ++begun, " of ", flops.size()); };
+  algebra::factor_in_threads(flops, phase, monitor, [&](int k) {
     const Piece& piece = dual.torn().pieces[alike_[k].front()];
     Inside& inside = insides_[k];
     if (inside.inverse.factor(principal(*piece.K, inside.unknowns))) return;

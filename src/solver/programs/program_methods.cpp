@@ -39,10 +39,10 @@ PrimalProgram::PrimalProgram(const Problem& problem, const problem::RigidMotions
 SparseRows PrimalProgram::condense(algebra::Ordering ordering, problem::Clock& clock, Monitor& monitor) {
   std::vector<Eigen::Triplet<double>> stiffness, rows;
   std::vector<double> load;
-  for (const Block& block : problem_.blocks) {
-    condensed_.push_back(problem::condense(problem_, block, ordering, clock, monitor));
-    problem::CondensedBlock& part = condensed_.back();
-    part.take_load(block.f);
+  condensed_ = problem::condense(problem_, ordering, clock, monitor);
+  for (std::size_t b = 0; b < condensed_.size(); ++b) {
+    problem::CondensedBlock& part = condensed_[b];
+    part.take_load(problem_.blocks[b].f);
     const int first = static_cast<int>(load.size()), size = static_cast<int>(part.load.size());
     require_memory(64.0 * size * size, text("the stiffness matrix condensed onto ", size, " unknowns"));
     const algebra::DenseMatrix S = part.condensation.schur();
