@@ -9,6 +9,7 @@
 #include <vtkPointData.h>
 #include <vtkStringArray.h>
 #include <vtkUnstructuredGrid.h>
+#include <vtkXMLPUnstructuredGridReader.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
 #include <cmath>
@@ -147,6 +148,61 @@ TEST_CASE("cells of order 2 are VTK's own, nodes in its order: every one is wher
     }
 }
 
+TEST_CASE("pieces of a .pvtu have all cells once, and the values of the whole at their nodes") {
+  const auto s = two_blocks();
+  GridFile given = figure::compose_grid(*s, "pieces.pvtu");
+  given.pieces = 3;
+  figure::write(given);
+  vtkNew<vtkXMLPUnstructuredGridReader> reader;
+  reader->SetFileName("pieces.pvtu");
+  reader->Update();
+  vtkUnstructuredGrid* grid = reader->GetOutput();
+  REQUIRE(grid->GetNumberOfCells() == 6 + 12);
+  for (int k = 0; k < 3; ++k) CHECK(read("pieces_" + std::to_string(k) + ".vtu")->GetNumberOfCells() == 2 + 4);
+  CHECK_FALSE(std::filesystem::exists("pieces_3.vtu"));
+
+  int next[2] = {0, 0};  // of each body's cells, which come in their order
+  for (int c = 0; c < 18; ++c) {
+    const int body = static_cast<int>(grid->GetCellData()->GetArray("body")->GetTuple1(c)) - 1;
+    REQUIRE((body == 0 || body == 1));
+    vtkCell* cell = grid->GetCell(c);
+    const int each = body == 0 ? 4 : 3;
+    REQUIRE(cell->GetNumberOfPoints() == each);
+    for (int k = 0; k < each; ++k) {
+      const int here = static_cast<int>(cell->GetPointId(k)), node = given.bodies[body].cells[next[body] * each + k];
+      for (int i = 0; i < 3; ++i) CHECK(grid->GetPoint(here)[i] == given.points[3 * node + i]);
+      for (const GridArray& array : given.arrays) {
+        vtkDataArray* back = grid->GetPointData()->GetArray(array.name.c_str());
+        REQUIRE(back);
+        REQUIRE(back->GetNumberOfComponents() == static_cast<int>(array.components.size()));
+        for (std::size_t i = 0; i < array.components.size(); ++i) {
+          const double value = array.values[node * array.components.size() + i], found = back->GetComponent(here, static_cast<int>(i));
+          CHECK((found == value || (std::isnan(found) && std::isnan(value))));
+        }
+        if (array.components.size() > 1) CHECK(std::string(back->GetComponentName(1)) == array.components[1]);
+      }
+    }
+    ++next[body];
+  }
+  CHECK(next[0] == 6);
+  CHECK(next[1] == 12);
+}
+
+TEST_CASE("more pieces than cells are one a cell; a list whose pieces cannot be written is gone") {
+  GridFile grid = triangle("few.pvtu");
+  grid.pieces = 5;
+  figure::write(grid);
+  CHECK(std::filesystem::exists("few_0.vtu"));
+  CHECK_FALSE(std::filesystem::exists("few_1.vtu"));
+  std::filesystem::remove("few_0.vtu");
+  std::filesystem::create_directory("few_0.vtu");
+  CHECK(message_of([&] { figure::write(grid); }) == "cannot write 'few_0.vtu': it is a folder; results are written to files");
+  CHECK_FALSE(std::filesystem::exists("few.pvtu"));
+  std::filesystem::remove("few_0.vtu");
+  grid.file = "few.vtu";
+  CHECK(message_of([&] { figure::write(grid); }) == "few.vtu: pieces, one or more, are for a .pvtu");
+}
+
 TEST_CASE("the arrays are what the solution says") {
   const auto s = two_blocks();
   const GridFile grid = figure::compose_grid(*s, "x.vtu");
@@ -174,7 +230,7 @@ TEST_CASE("the arrays are what the solution says") {
 
 TEST_CASE("a file that cannot be written leaves nothing, and says why") {
   using figure::write;
-  CHECK(message_of([] { write(triangle("a.vtk")); }) == "cannot write a.vtk: the file name must end in .vtu");
+  CHECK(message_of([] { write(triangle("a.vtk")); }) == "cannot write a.vtk: the file name must end in .vtu or .pvtu");
   CHECK(message_of([] { write(triangle("nowhere/a.vtu")); }) ==
         "cannot write 'nowhere/a.vtu': folder nowhere: No such file or directory; it must be there first: mkdir -p nowhere");
   GridFile grid = triangle("refused.vtu");

@@ -248,7 +248,8 @@ void check(const PlatePicture& p) {
 }
 
 void check(const GridFile& g) {
-  check_file(g.file, {".vtu"}, ".vtu");
+  check_file(g.file, {".vtu", ".pvtu"}, ".vtu or .pvtu");
+  require(g.pieces == 0 || (g.pieces > 0 && g.file.ends_with(".pvtu")), g.file + ": pieces, one or more, are for a .pvtu");
   require(g.points.size() % 3 == 0, g.file + ": points come three coordinates each");
   require(finite(g.points), g.file + ": a coordinate is not finite");
   const std::size_t n = g.points.size() / 3;

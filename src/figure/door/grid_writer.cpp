@@ -1,4 +1,7 @@
 // VTK's own XML writer, on arrays of ours.
+#include <algorithm>
+#include <filesystem>
+
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkCellType.h>
@@ -15,6 +18,7 @@
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
+#include "base/text.hpp"
 #include "base/whole_file.hpp"
 #include "figure/door/drawing.hpp"
 
@@ -64,9 +68,7 @@ struct Quiet {
   ~Quiet() { vtkObject::SetGlobalWarningDisplay(before); }
 };
 
-}  // namespace
-
-void render(const GridFile& file) {
+void write_cells(const GridFile& file) {
   vtkNew<vtkDoubleArray> coordinates;
   look_at(coordinates, file.points, 3);
   vtkNew<vtkPoints> points;
@@ -98,6 +100,66 @@ void render(const GridFile& file) {
   if (!written || error != vtkErrorCode::NoError)
     part.fail(error == vtkErrorCode::NoError ? "the writer failed" : vtkErrorCode::GetStringFromErrorCode(error));
   part.finish();
+}
+
+std::size_t cells_of(const GridBody& body) { return body.cells.size() / nodes_per_cell(body.shape, body.order); }
+
+// The k-th of so many shares of every body's cells, with the nodes of these, in their order.
+GridFile share(const GridFile& whole, std::size_t k, std::size_t of, const std::string& name) {
+  GridFile piece{name, {}, whole.bodies, {}};
+  std::vector<int> number(whole.points.size() / 3, -1), nodes;
+  for (GridBody& body : piece.bodies) {
+    const std::size_t count = cells_of(body), each = nodes_per_cell(body.shape, body.order);
+    const auto cut = [&](std::size_t at) { return body.cells.begin() + static_cast<std::ptrdiff_t>(count * at / of * each); };
+    body.cells = std::vector<int>(cut(k), cut(k + 1));
+    for (const int node : body.cells) number[node] = 0;
+  }
+  for (int node = 0; node < static_cast<int>(number.size()); ++node)
+    if (number[node] == 0) number[node] = static_cast<int>(nodes.size()), nodes.push_back(node);
+  for (GridBody& body : piece.bodies)
+    for (int& node : body.cells) node = number[node];
+  const auto pick = [&](const std::vector<double>& values, std::size_t each) {
+    std::vector<double> picked;
+    picked.reserve(nodes.size() * each);
+    for (const int node : nodes) picked.insert(picked.end(), values.begin() + node * each, values.begin() + (node + 1) * each);
+    return picked;
+  };
+  piece.points = pick(whole.points, 3);
+  for (const GridArray& array : whole.arrays) piece.arrays.push_back({array.name, array.components, pick(array.values, array.components.size())});
+  return piece;
+}
+
+// What ParaView needs to know of the pieces before it reads them.
+std::string list_of(const GridFile& whole, const std::vector<std::string>& pieces) {
+  std::string list = "<VTKFile type=\"PUnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n"
+                     "<PUnstructuredGrid GhostLevel=\"0\">\n<PPointData>\n";
+  for (const GridArray& array : whole.arrays) {
+    list += text("<PDataArray type=\"Float64\" Name=\"", array.name, "\" NumberOfComponents=\"", array.components.size(), "\"");
+    for (std::size_t c = 0; c < array.components.size() && array.components.size() > 1; ++c) list += text(" ComponentName", c, "=\"", array.components[c], "\"");
+    list += "/>\n";
+  }
+  list += "</PPointData>\n<PCellData><PDataArray type=\"Int32\" Name=\"body\"/></PCellData>\n"
+          "<PPoints><PDataArray type=\"Float64\" NumberOfComponents=\"3\"/></PPoints>\n";
+  for (const std::string& piece : pieces) list += text("<Piece Source=\"", piece, "\"/>\n");
+  return list + "</PUnstructuredGrid>\n</VTKFile>\n";
+}
+
+}  // namespace
+
+void render(const GridFile& file) {
+  const std::filesystem::path place(file.file);
+  if (place.extension() != ".pvtu") return write_cells(file);
+  constexpr std::size_t kMillion = 1000000;
+  std::size_t cells = 0;
+  for (const GridBody& body : file.bodies) cells += cells_of(body);
+  const std::size_t asked = file.pieces > 0 ? file.pieces : (cells + kMillion - 1) / kMillion, pieces = std::clamp<std::size_t>(asked, 1, std::max<std::size_t>(1, cells));
+  std::filesystem::remove(place_to_write(file.file));
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < pieces; ++k) {
+    names.push_back(text(place.stem().string(), "_", k, ".vtu"));
+    write_cells(share(file, k, pieces, (place.parent_path() / names.back()).string()));
+  }
+  write_whole_file(file.file, list_of(file, names));
 }
 
 }  // namespace dotyk::figure

@@ -285,10 +285,11 @@ struct GridBody {
 };
 
 struct GridFile {
-  std::string file;                     // ends in .vtu; its folder must exist
+  std::string file;                     // ends in .vtu or .pvtu; its folder must exist
   std::vector<double> points;           // 3 n: reference coordinates, of all bodies
   std::vector<GridBody> bodies;
   std::vector<GridArray> arrays;
+  int pieces = 0;                       // of a .pvtu; 0: one for each million cells
 };
 
 // ---------------------------------------------------------------- drawing
@@ -306,6 +307,9 @@ void draw(const ChartColumn& picture);
 // Writes VTK's XML format, the numbers compressed in binary, whole or not at
 // all: on an error grid.file is as it was. Cells carry the array "body": their
 // body's place in `bodies`, from 1; the text array "body_names" has the names.
+// A .pvtu, a.pvtu say, lists files a_0.vtu, a_1.vtu, … beside it, each with a
+// share of every body's cells and the nodes of these. It comes last, and one
+// that was there goes first: what it lists belongs together.
 // Throws std::runtime_error as draw() does.
 void write(const GridFile& grid);
 

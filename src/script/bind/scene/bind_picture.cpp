@@ -249,11 +249,16 @@ void bind_picture(Library& library) {
        .help = "Writes the whole solution for ParaView and returns the file's name: all bodies at rest, their cells "
                "numbered by \"body\", with displacement, stress, von_mises and, where there is contact, "
                "contact_pressure, contact_gap and contact_status (0 open, 1 closed, 2 stick, 3 slip, -1 no contact) "
-               "at the nodes; of contacts whose nodes do not match at the first part's alone.",
-       .example = "s:write \"a.vtu\"",
-       .arguments = {key::file("file", "where to; ends in .vtu, its folder must exist").written().required()},
+               "at the nodes; of contacts whose nodes do not match at the first part's alone. A .pvtu is a list of files beside it, "
+               "a_0.vtu, a_1.vtu, … of a.pvtu, each with a share of the cells, which many readers take side by side.",
+       .example = "s:write \"a.vtu\"\ns:write(\"parts.pvtu\", { pieces = 2 })",
+       .arguments = {key::file("file", "where to; ends in .vtu or .pvtu, its folder must exist").written().required(),
+                     key::table("options", {key::integer("pieces", "files of a .pvtu").within(1, 100000).otherwise("one for each million cells")}, "of a .pvtu")
+                         .otherwise("none")},
        .run = [](Call& call) {
-         figure::write(figure::compose_grid(*call.self<Solution>(), call.text("file")));
+         figure::GridFile grid = figure::compose_grid(*call.self<Solution>(), call.text("file"));
+         if (call.has("options") && call.table("options").has("pieces")) grid.pieces = static_cast<int>(call.table("options").number("pieces"));
+         figure::write(grid);
          return call.text("file");
        }});
 }
