@@ -14,7 +14,7 @@ struct CoarseStart {
   std::vector<char> active;  ///< by row; empty where no coarser mesh is known or its problem was not solved
   int meshes = 0;            ///< solved on
   std::shared_ptr<const problem::State> state;  ///< of this mesh, as the coarser one's; null likewise
-  std::shared_ptr<const algebra::SparseMatrix> stiffness;  ///< of the coarser mesh, where there is one body; null likewise
+  std::shared_ptr<algebra::SparseMatrix> stiffness;  ///< of the coarser mesh, where there is one body; null likewise
 };
 CoarseStart coarse_start(const problem::Problem& problem, const Pdas& settings, Monitor& monitor);
 

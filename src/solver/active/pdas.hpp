@@ -29,8 +29,9 @@ struct Pdas : Settings {
   MakeSpdSolver linear;
   /// Where coarser meshes are known and no `start` is given, the iteration begins at the solution on the next coarser mesh; see coarse_start().
   bool nested = false;
-  /// The stiffness of problem::coarser(), where there is one body and that is known; spares multigrid the product.
-  std::shared_ptr<const algebra::SparseMatrix> coarser;
+  /// The stiffness of problem::coarser(), where there is one body and that is known; spares multigrid the product. Emptied once
+  /// multigrid has it.
+  std::shared_ptr<algebra::SparseMatrix> coarser;
   /// The result is only the start of another iteration, as on a finer mesh: where active sets repeat it counts as converged, and no rescue is tried.
   bool rough = false;
   /// What solves the linear problem of an iteration in its place, without friction; empty: held_step.
