@@ -1,6 +1,7 @@
 #include "problem/condensed.hpp"
 
 #include <doctest/doctest.h>
+#include <sched.h>
 
 #include <Eigen/LU>
 
@@ -127,6 +128,33 @@ TEST_CASE("a block that is not held is refused by name and node") {
   Monitor quiet;
   CHECK_THROWS_WITH_AS(CondensedProblem(p, problem::rigid_motions(p), Ordering::automatic, clock, quiet),
                        doctest::Contains("the stiffness of 'lid' is singular (node 9 is not held)"), InputError);
+}
+
+TEST_CASE("bodies factored side by side give the same bits as one after another") {
+  Random random(44);
+  Problem p;
+  for (const char* name : {"a", "b", "c"}) add(p, test::block(name, test::spring_grid(random, 100, 80, 2, 0.2), random.vector(16000), 2, false));
+  p.B = test::rows(random_rows(random, p, 9));
+  p.c = random.vector(9);
+  const auto condensed = [&] {
+    Clock clock;
+    Monitor quiet;
+    CondensedProblem all(p, problem::rigid_motions(p), {}, clock, quiet);
+    CHECK(work_of_condensing(p).flops > 1e8);  // worth threads
+    return all;
+  };
+  const CondensedProblem beside = condensed();
+  cpu_set_t before, one;
+  REQUIRE(sched_getaffinity(0, sizeof before, &before) == 0);
+  CPU_ZERO(&one);
+  CPU_SET(sched_getcpu(), &one);
+  REQUIRE(sched_setaffinity(0, sizeof one, &one) == 0);
+  const CondensedProblem after = condensed();
+  REQUIRE(sched_setaffinity(0, sizeof before, &before) == 0);
+  const Vector lambda = random.vector(9);
+  CHECK((beside.W().array() == after.W().array()).all());
+  CHECK((beside.x0().array() == after.x0().array()).all());
+  CHECK((beside.recover(lambda, Vector()).array() == after.recover(lambda, Vector()).array()).all());
 }
 
 TEST_CASE("another load on the same factors is what a condensation anew gives") {
