@@ -199,6 +199,16 @@ TEST_CASE("more pieces than cells are one a cell; a list whose pieces cannot be 
   CHECK(message_of([&] { figure::write(grid); }) == "cannot write 'few_0.vtu': it is a folder; results are written to files");
   CHECK_FALSE(std::filesystem::exists("few.pvtu"));
   std::filesystem::remove("few_0.vtu");
+  std::filesystem::create_symlink("elsewhere.vtu", "few_0.vtu");
+  figure::write(grid);
+  CHECK_FALSE(std::filesystem::is_symlink("few_0.vtu"));
+  CHECK_FALSE(std::filesystem::exists("elsewhere.vtu"));
+  grid.file = "few & more.pvtu";
+  CHECK(message_of([&] { figure::write(grid); }) == "few & more.pvtu: the name of a .pvtu, which lists names in XML, cannot have & < > or \"");
+  std::filesystem::create_directories("R & D");
+  grid.file = "R & D/few.pvtu";
+  figure::write(grid);
+  CHECK(std::filesystem::exists("R & D/few_0.vtu"));
   grid.file = "few.vtu";
   CHECK(message_of([&] { figure::write(grid); }) == "few.vtu: pieces, one or more, are for a .pvtu");
 }

@@ -106,13 +106,13 @@ std::size_t cells_of(const GridBody& body) { return body.cells.size() / nodes_pe
 
 // The k-th of so many shares of every body's cells, with the nodes of these, in their order.
 GridFile share(const GridFile& whole, std::size_t k, std::size_t of, const std::string& name) {
-  GridFile piece{name, {}, whole.bodies, {}};
+  GridFile piece{name, {}, {}, {}};
   std::vector<int> number(whole.points.size() / 3, -1), nodes;
-  for (GridBody& body : piece.bodies) {
+  for (const GridBody& body : whole.bodies) {
     const std::size_t count = cells_of(body), each = nodes_per_cell(body.shape, body.order);
     const auto cut = [&](std::size_t at) { return body.cells.begin() + static_cast<std::ptrdiff_t>(count * at / of * each); };
-    body.cells = std::vector<int>(cut(k), cut(k + 1));
-    for (const int node : body.cells) number[node] = 0;
+    piece.bodies.push_back({body.name, body.shape, {cut(k), cut(k + 1)}, body.order});
+    for (const int node : piece.bodies.back().cells) number[node] = 0;
   }
   for (int node = 0; node < static_cast<int>(number.size()); ++node)
     if (number[node] == 0) number[node] = static_cast<int>(nodes.size()), nodes.push_back(node);
@@ -157,7 +157,9 @@ void render(const GridFile& file) {
   std::vector<std::string> names;
   for (std::size_t k = 0; k < pieces; ++k) {
     names.push_back(text(place.stem().string(), "_", k, ".vtu"));
-    write_cells(share(file, k, pieces, (place.parent_path() / names.back()).string()));
+    const std::filesystem::path piece = place.parent_path() / names.back();
+    if (std::filesystem::is_symlink(piece)) std::filesystem::remove(piece);  // it may lead to anywhere
+    write_cells(share(file, k, pieces, piece.string()));
   }
   write_whole_file(file.file, list_of(file, names));
 }
