@@ -69,6 +69,9 @@ std::vector<CondensedBlock> condense(const Problem& problem, algebra::Ordering o
     flops.push_back(condensation.cholesky().flops());
     parts.push_back({std::move(condensation), std::move(on_boundary), {}, block.first, block.size()});
   }
+  double bytes = 0;
+  for (const CondensedBlock& part : parts) bytes += part.condensation.cholesky().bytes();
+  if (parts.size() > 1) require_memory(bytes, text("the factors of ", parts.size(), " bodies"));
   clock.ordering += watch.lap();
   const auto phase = [&](int b) {
     return text("factoring '", problem.blocks[b].name, "' (", parts[b].condensation.cholesky().method(), ", ", flops[b] * 1e-9, " Gflop)");

@@ -45,7 +45,7 @@ void reserve_blas_buffer() {
   static_cast<void>(taken);
 }
 
-bool blas_shares_out(double flops) { return held_to_one == 0 && flops > kWorthSharing && all_threads() > 1; }
+bool blas_shares_out(double flops) { return all_threads() > 1 && held_to_one == 0 && flops > kWorthSharing; }  // counted before the first change
 
 BlasThreads::BlasThreads(double flops) {
   reserve_blas_buffer();

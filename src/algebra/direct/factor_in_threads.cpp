@@ -35,12 +35,13 @@ void factor_in_threads(const std::vector<double>& flops, const std::function<std
     factor(order[k]);
   };
   const double total = std::accumulate(flops.begin(), flops.end(), 0.0);
-  if (flops[order.front()] > kMost * total && blas_shares_out(total)) {
+  const double greatest = flops[order.front()];
+  if (order.size() == 1 || total < kWorthThreads || (greatest > kMost * total && blas_shares_out(greatest))) {
     for (std::size_t k = 0; k < order.size(); ++k) one(static_cast<int>(k));
     return;
   }
   const OneBlasThread single;
-  parallel_for(static_cast<int>(order.size()), one, total < kWorthThreads ? 1 : single.workers());
+  parallel_for(static_cast<int>(order.size()), one, single.workers());
 }
 
 }  // namespace dotyk::algebra

@@ -70,7 +70,7 @@ void Watch::limit(double seconds) {
 }
 
 bool Watch::stop() {
-  told_ = told_ || interrupted();
+  if (interrupted()) told_ = true;
   return refused_ || interrupted() || (deadline_ && std::chrono::steady_clock::now() > *deadline_);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // A script's eye on long work in the numerical rooms: the progress line, the
 // user's on_iteration, Ctrl-C.
+#include <atomic>
 #include <chrono>
 #include <optional>
 #include <string>
@@ -53,7 +54,7 @@ class Watch : public Monitor {
   std::string work_;
   std::vector<Function> on_iteration_;
   bool verbose_, refused_ = false;
-  bool told_ = false;  // the work of a request to stop
+  std::atomic<bool> told_ = false;  // the work of a request to stop
   std::optional<std::chrono::steady_clock::time_point> deadline_;
   std::optional<IterationInfo> last_;
 };

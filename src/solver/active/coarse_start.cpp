@@ -59,7 +59,9 @@ CoarseStart coarse_start(const Problem& problem, const Pdas& settings, Monitor& 
     for (int r = group.first; r < group.first + group.count; ++r)
       if (!coarse.kept[r]) start.active[r] = x[r] >= touches;
   start.state = std::make_shared<problem::State>(coarse.prolonged(result.state));
-  if (problem.blocks.size() == 1) start.stiffness = std::make_shared<algebra::SparseMatrix>(std::move(coarse.problem.blocks[0].K));
+  if (problem.blocks.size() != 1) return start;
+  start.stiffness = std::make_shared<algebra::SparseMatrix>();
+  start.stiffness->swap(coarse.problem.blocks[0].K);
   return start;
 }
 

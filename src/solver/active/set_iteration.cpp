@@ -144,7 +144,7 @@ HeldStiffness& SetIteration::stiffness() {
   Stopwatch watch;
   monitor.phase("ordering");
   stiffness_.emplace(problem, rigid, settings.linear ? settings.linear : factor(settings.ordering), monitor, settings.coarser.get());
-  if (settings.coarser) *settings.coarser = {};
+  if (settings.coarser) SparseMatrix().swap(*settings.coarser);
   result.clock.ordering += watch.lap();
   result.factor_bytes = stiffness_->solver().bytes();
   result.ordering = stiffness_->solver().method();

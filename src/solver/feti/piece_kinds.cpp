@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 
 #include "algebra/dense/dense.hpp"
 #include "algebra/direct/blas_threads.hpp"
