@@ -86,7 +86,7 @@ class PetscSolver final : public algebra::SpdSolver {
 
  private:
   /// Sends each other rank its parcel and its first changes; returns the piece of rank 0. Parcels are made in parallel, as many at a time as there are cores.
-  /// The first ones are made before the ranks are told to begin, because a rank that waits for its parcel in MPI keeps a core busy.
+  /// The first parcels are made before the other ranks are told to begin, because a rank keeps a core busy while it waits for its parcel.
   Piece share_out(const Pieces& pieces, std::vector<Change>& first) const {
     const Ranks& ranks = workers_.ranks();
     for (int from = 1; from < ranks.count();) {

@@ -50,8 +50,9 @@ void each_entry(const Triangle& triangle, Visit&& visit) {
     for (int k = triangle.starts[j]; k < triangle.starts[j + 1]; ++k) visit(triangle.rows[k], triangle.columns[j], triangle.values[k]);
 }
 
-/// Rows of the full symmetric matrix, made from its lower triangle; `each` calls one of the functions above. If unknowns keep their order, columns come
-/// ascending in each row: entries left of the diagonal come from earlier columns of the triangle, the others from the row's own column.
+/// Makes the rows of a range of the full symmetric matrix from its lower triangle. each(visit) visits the entries of the triangle, column by column. If
+/// the unknowns keep their order, the columns of each row ascend: the entries left of the diagonal are in earlier columns of the triangle, the others in
+/// the row's own column.
 template <class Each>
 Rows full_rows(const Range& range, const std::vector<int>& idle, double mean, Each&& each) {
   Rows rows;

@@ -73,7 +73,7 @@ std::vector<CondensedBlock> condense(const Problem& problem, algebra::Ordering o
   for (const CondensedBlock& part : parts) bytes += part.condensation.cholesky().bytes();
   if (parts.size() > 1) require_memory(bytes, text("the factors of ", parts.size(), " bodies"));
   clock.ordering += watch.lap();
-  const auto phase = [&](int b) {
+  const auto phase = [&](int b, int) {
     return text("factoring '", problem.blocks[b].name, "' (", parts[b].condensation.cholesky().method(), ", ", flops[b] * 1e-9, " Gflop)");
   };
   algebra::factor_in_threads(flops, phase, monitor, [&](int b) {
@@ -115,7 +115,12 @@ CondensedProblem::CondensedProblem(const Problem& problem, const RigidMotions& r
   clock.iterate += watch.lap();
   std::vector<CondensedBlock> parts = condense(problem, ordering, clock, monitor);
   watch.lap();
-  for (CondensedBlock& part : parts) add(std::move(part), monitor);
+  for (std::size_t b = 0; b < parts.size(); ++b) {
+    monitor.check();
+    monitor.phase(text("condensing '", problem.blocks[b].name, "' onto ", parts[b].condensation.boundary().size(), " contact unknowns"));
+    const algebra::StopFactoring stop(monitor);
+    add(std::move(parts[b]));
+  }
   set_load(problem, rigid);
   clock.iterate += watch.lap();
 }
@@ -148,11 +153,8 @@ CondensedProblem CondensedProblem::missing(const Vector& lambda, const Vector& x
   return rest;
 }
 
-void CondensedProblem::add(CondensedBlock block, Monitor& monitor) {
+void CondensedProblem::add(CondensedBlock block) {
   Part part{std::move(block), modes_};
-  monitor.check();
-  monitor.phase(text("condensing onto ", part.condensation.boundary().size(), " contact unknowns"));
-  const algebra::StopFactoring stop(monitor);
   // Only the rows present on this block make columns of the half compliance.
   const std::vector<int> present = rows_present(part.rows);
   const DenseMatrix own = algebra::gram(part.condensation.half_compliance(algebra::pick_rows(part.rows, present)));

@@ -31,7 +31,8 @@ struct CondensedBlock {
   void take_load(const algebra::Vector& f) { load = condensation.condense(f); }
 };
 
-/// Orders the blocks, factors them side by side and condenses them, without their loads; adds its times to `clock`. Throws InputError where one is not held.
+/// Orders all blocks, factors them by factor_in_threads() and condenses them, without their loads. Adds its times to `clock`. Throws InputError if a block
+/// is not held.
 std::vector<CondensedBlock> condense(const Problem& problem, algebra::Ordering ordering, Clock& clock, Monitor& monitor);
 
 /// What condensing takes, as the orderings predict; `bytes` with those of dense_bytes().
@@ -85,7 +86,7 @@ class CondensedProblem {
   struct Part : CondensedBlock {
     int first_mode;
   };
-  void add(CondensedBlock block, Monitor& monitor);
+  void add(CondensedBlock block);
   /// Puts together what `of` makes of each part and its rigid motion on Γ.
   template <class Of>
   algebra::Vector together(const algebra::Vector& alpha, const Of& of) const;

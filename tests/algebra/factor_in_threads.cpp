@@ -27,14 +27,14 @@ TEST_CASE("each is factored once, and told before, the greatest first") {
     for (const double first : {1.0, 100.0}) {  // times as much: more than two thirds of the work
       Told told;
       std::atomic<int> times[5] = {};
-      algebra::factor_in_threads({flops, 2 * flops, first * 4 * flops, 3 * flops, flops}, [](int k) { return std::to_string(k); }, told,
+      algebra::factor_in_threads({flops, 2 * flops, first * 4 * flops, 3 * flops, flops}, [](int k, int) { return std::to_string(k); }, told,
                                  [&](int k) { ++times[k]; });
       for (const auto& count : times) CHECK(count == 1);
       CHECK(told.phases.size() == 5);
       if (flops == kSerial) CHECK(told.phases == std::vector<std::string>{"2", "3", "1", "0", "4"});
     }
   Told told;
-  algebra::factor_in_threads({}, [](int) { return ""; }, told, [](int) { FAIL("of nothing"); });
+  algebra::factor_in_threads({}, [](int, int) { return ""; }, told, [](int) { FAIL("of nothing"); });
   CHECK(told.phases.empty());
 }
 
@@ -42,13 +42,13 @@ TEST_CASE("what a factorisation throws arrives, of several the greatest one's; a
   for (const double flops : {kThreads, kSerial}) {
     Told told;
     const auto fail = [&] {
-      algebra::factor_in_threads({flops, 3 * flops, 2 * flops}, [](int) { return ""; }, told, [](int k) { throw InputError(std::to_string(k)); });
+      algebra::factor_in_threads({flops, 3 * flops, 2 * flops}, [](int, int) { return ""; }, told, [](int k) { throw InputError(std::to_string(k)); });
     };
     CHECK_THROWS_WITH_AS(fail(), "1", InputError);
     Told stops;
     stops.most = 2;
     std::atomic<int> begun = 0;
-    CHECK_THROWS_AS(algebra::factor_in_threads(std::vector<double>(8, flops), [](int) { return ""; }, stops, [&](int) { ++begun; }), Interrupted);
+    CHECK_THROWS_AS(algebra::factor_in_threads(std::vector<double>(8, flops), [](int, int) { return ""; }, stops, [&](int) { ++begun; }), Interrupted);
     CHECK(begun == 2);
   }
 }

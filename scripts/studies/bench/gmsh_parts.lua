@@ -10,7 +10,7 @@
 
 local sizes <const>, names, method, runs = {}, {}, nil, 1
 for _, word in ipairs(arg) do
-  if word:match "^runs=%d+$" then runs = tonumber(word:match "%d+")
+  if word:match "^runs=[1-9]%d*$" then runs = tonumber(word:match "%d+")
   elseif tonumber(word) then sizes[#sizes + 1] = tonumber(word)
   elseif word == "aggregates" then method = dotyk.solver.multigrid{ levels = "aggregates" }
   else names[#names + 1] = word end
@@ -157,20 +157,19 @@ for _, count in ipairs(sizes) do
   for _, part in ipairs(names) do
     assert(parts[part], "there is no part " .. part)
     local h <const> = with_nodes(part, count)
-    local seconds <const>, times <const>, last <const> = {}, {}, {}
+    local seconds <const>, times <const>, iterations <const>, nodes = {}, {}, {}, nil
     for k in ipairs(joins) do seconds[k], times[k] = {}, {} end
     for run = 1, runs do
       for k, join in ipairs(joins) do
-        last[k] = solved(part, h, join)
-        seconds[k][run] = last[k].time.total
+        local s <const> = solved(part, h, join)
+        seconds[k][run] = s.time.total
         times[k][run] = seconds[k][run] / seconds[1][run]
+        iterations[k] = (" %3d it"):format(s.iterations) .. (s.multigrid and (" %3d cg"):format(s.multigrid.cg) or "")
+        nodes = nodes or s.unknowns // 3
       end
     end
-    local line = ("%-8s %8d"):format(part, last[1].unknowns // 3)
-    for k, s in ipairs(last) do
-      local cg <const> = s.multigrid and (" %3d cg"):format(s.multigrid.cg) or ""
-      line = line .. ("  %8.2f s  x%.2f %3d it"):format(median(seconds[k]), median(times[k]), s.iterations) .. cg
-    end
+    local line = ("%-8s %8d"):format(part, nodes)
+    for k in ipairs(joins) do line = line .. ("  %8.2f s  x%.2f"):format(median(seconds[k]), median(times[k])) .. iterations[k] end
     print(line .. ("  %6.2f GB"):format(peak_memory()))
   end
 end

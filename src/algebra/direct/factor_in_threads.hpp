@@ -8,10 +8,13 @@
 
 namespace dotyk::algebra {
 
-/// factor(k) for every k, the greatest first. Each has a thread, and its products have no others. Where there is one, where the work is small, or where the
-/// greatest has most of it and its products may have several threads, they go on one after another on this thread. Before each the monitor is told phase(k) and asked whether to stop, and a
-/// StopFactoring lives while it goes on. `flops`: of each. The calls must not touch what another one writes.
-void factor_in_threads(const std::vector<double>& flops, const std::function<std::string(int)>& phase, Monitor& monitor,
+/// Calls factor(k) once for every k; the calls with most work begin first. `flops[k]`: the work of a call. The calls run in several threads, and BLAS
+/// uses one thread in each. They run one after another, and BLAS may use several threads, if there is only one call, if all of them together are small,
+/// or if one call has most of the work and is large enough for several threads.
+///
+/// Before each call the monitor is asked whether to stop, and is told phase(k, n): this is the n-th call, from 1. StopFactoring holds during the call.
+/// A call must not touch what another one writes.
+void factor_in_threads(const std::vector<double>& flops, const std::function<std::string(int k, int n)>& phase, Monitor& monitor,
                        const std::function<void(int)>& factor);
 
 }  // namespace dotyk::algebra

@@ -249,8 +249,9 @@ void check(const PlatePicture& p) {
 
 void check(const GridFile& g) {
   check_file(g.file, {".vtu", ".pvtu"}, ".vtu or .pvtu");
-  require(g.pieces == 0 || (g.pieces > 0 && g.file.ends_with(".pvtu")), g.file + ": pieces, one or more, are for a .pvtu");
-  require(!g.file.ends_with(".pvtu") || g.file.find_first_of("&<>\"", g.file.rfind('/') + 1) == std::string::npos, g.file + ": the name of a .pvtu, which lists names in XML, cannot have & < > or \"");
+  const bool list = g.file.ends_with(".pvtu"), plain = g.file.find_first_of("&<>\"", g.file.rfind('/') + 1) == std::string::npos;
+  require(g.pieces == 0 || (g.pieces > 0 && list), g.file + ": pieces, one or more, are for a .pvtu");
+  require(!list || plain, g.file + ": the name of a .pvtu, which lists names in XML, cannot have & < > or \"");
   require(g.points.size() % 3 == 0, g.file + ": points come three coordinates each");
   require(finite(g.points), g.file + ": a coordinate is not finite");
   const std::size_t n = g.points.size() / 3;

@@ -104,7 +104,7 @@ void write_cells(const GridFile& file) {
 
 std::size_t cells_of(const GridBody& body) { return body.cells.size() / nodes_per_cell(body.shape, body.order); }
 
-// The k-th of so many shares of every body's cells, with the nodes of these, in their order.
+// Every body's cells are cut into `of` parts. Part k of each body, from 0, with the nodes of its cells; cells and nodes stay in order.
 GridFile share(const GridFile& whole, std::size_t k, std::size_t of, const std::string& name) {
   GridFile piece{name, {}, {}, {}};
   std::vector<int> number(whole.points.size() / 3, -1), nodes;

@@ -307,9 +307,10 @@ void draw(const ChartColumn& picture);
 // Writes VTK's XML format, the numbers compressed in binary, whole or not at
 // all: on an error grid.file is as it was. Cells carry the array "body": their
 // body's place in `bodies`, from 1; the text array "body_names" has the names.
-// A .pvtu, a.pvtu say, lists files a_0.vtu, a_1.vtu, … beside it, each with a
-// share of every body's cells and the nodes of these. It comes last, and one
-// that was there goes first: what it lists belongs together.
+// The file a.pvtu is a list of the files a_0.vtu, a_1.vtu, … in its folder. Each
+// of them has a part of every body's cells, and the nodes of these cells. An old
+// list is removed first and the new one is written last, so that a list never
+// names files of two calls; on an error there is no list.
 // Throws std::runtime_error as draw() does.
 void write(const GridFile& grid);
 

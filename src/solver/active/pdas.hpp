@@ -29,8 +29,8 @@ struct Pdas : Settings {
   MakeSpdSolver linear;
   /// Where coarser meshes are known and no `start` is given, the iteration begins at the solution on the next coarser mesh; see coarse_start().
   bool nested = false;
-  /// The stiffness of problem::coarser(), where there is one body and that is known; spares multigrid the product. Emptied once
-  /// multigrid has it.
+  /// The stiffness of problem::coarser(), where there is one body and that is known; spares multigrid the product. The solve
+  /// empties this matrix after its linear solver has been made.
   std::shared_ptr<algebra::SparseMatrix> coarser;
   /// The result is only the start of another iteration, as on a finer mesh: where active sets repeat it counts as converged, and no rescue is tried.
   bool rough = false;

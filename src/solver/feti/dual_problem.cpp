@@ -46,8 +46,7 @@ void DualProblem::analyse(algebra::Ordering ordering, Monitor& monitor) {
 void DualProblem::factor(Monitor& monitor) {
   std::vector<double> flops;
   for (const auto& inverse : inverses_) flops.push_back(inverse.cholesky().flops());
-  int begun = 0;
-  const auto phase = [&](int) { return text("factoring piece ", ++begun, " of ", flops.size()); };
+  const auto phase = [&](int, int n) { return text("factoring piece ", n, " of ", flops.size()); };
   algebra::factor_in_threads(flops, phase, monitor, [&](int kind) {
     const Piece& first = torn_.pieces[kinds_[kind].front()];
     if (!inverses_[kind].factor(*first.K)) refuse_singular(first, inverses_[kind].failed_unknown());

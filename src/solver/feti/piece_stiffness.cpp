@@ -76,8 +76,7 @@ PieceStiffness::PieceStiffness(const DualProblem& dual, algebra::Ordering orderi
   require_memory(factor_bytes(), text("the factors of the insides of ", insides_.size(), " pieces"));
   std::vector<double> flops;
   for (const Inside& inside : insides_) flops.push_back(inside.inverse.cholesky().flops());
-  int begun = 0;
-  const auto phase = [&](int) { return text("factoring the inside of piece ", ++begun, " of ", flops.size()); };
+  const auto phase = [&](int, int n) { return text("factoring the inside of piece ", n, " of ", flops.size()); };
   algebra::factor_in_threads(flops, phase, monitor, [&](int k) {
     const Piece& piece = dual.torn().pieces[alike_[k].front()];
     Inside& inside = insides_[k];

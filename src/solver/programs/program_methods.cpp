@@ -41,6 +41,7 @@ SparseRows PrimalProgram::condense(algebra::Ordering ordering, problem::Clock& c
   std::vector<double> load;
   condensed_ = problem::condense(problem_, ordering, clock, monitor);
   for (std::size_t b = 0; b < condensed_.size(); ++b) {
+    monitor.check();
     problem::CondensedBlock& part = condensed_[b];
     part.take_load(problem_.blocks[b].f);
     const int first = static_cast<int>(load.size()), size = static_cast<int>(part.load.size());
