@@ -1,5 +1,8 @@
 #include "problem/condensed.hpp"
 
+#include <numeric>
+#include <utility>
+
 #include "algebra/dense/dense.hpp"
 #include "algebra/direct/factor_in_threads.hpp"
 #include "algebra/direct/stop_factoring.hpp"
@@ -15,6 +18,9 @@ using algebra::SparseRows;
 using algebra::Vector;
 
 namespace {
+
+/// Sweeps with many columns do so many times as many operations a second as a factor, which has to be ordered as well.
+constexpr double kFaster = 2;
 
 /// What orderings keep together, one entry an unknown, and which of it goes last.
 struct Grouping {
@@ -105,13 +111,14 @@ CondensingWork work_of_condensing(const Problem& problem) {
 
 CondensedProblem::CondensedProblem(const Problem& problem, const RigidMotions& rigid,
                                    algebra::Ordering ordering, Clock& clock, Monitor& monitor)
-    : noticed_(rigid.noticed), unknowns_(problem.unknowns()) {
+    : unknowns_(problem.unknowns()) {
   Stopwatch watch;
   const int m = problem.rows();
   require_memory(dense_bytes(m), text("the dense matrix of ", m, " rows"));
   W_ = DenseMatrix::Zero(m, m);
-  N_ = rigid.noticed_N;
-  unnoticed_ = unnoticed_displacements(problem, rigid);
+  first_rows_.resize(m);
+  std::iota(first_rows_.begin(), first_rows_.end(), 0);
+  set_motions(problem, rigid);
   clock.iterate += watch.lap();
   std::vector<CondensedBlock> parts = condense(problem, ordering, clock, monitor);
   watch.lap();
@@ -125,14 +132,69 @@ CondensedProblem::CondensedProblem(const Problem& problem, const RigidMotions& r
   clock.iterate += watch.lap();
 }
 
+void CondensedProblem::set_motions(const Problem& problem, const RigidMotions& rigid) {
+  noticed_ = rigid.noticed;
+  N_ = rigid.noticed_N;
+  unnoticed_ = unnoticed_displacements(problem, rigid);
+}
+
 void CondensedProblem::set_load(const Problem& problem, const RigidMotions& rigid) {
   x0_ = -problem.c;
   e_ = rigid.noticed_e;
   for (std::size_t b = 0; b < parts_.size(); ++b) {
     Part& part = parts_[b];
-    part.take_load(problem.blocks[b].f);
-    x0_ += part.rows * part.condensation.solve(part.load);
+    if (part.all_rows.rows() == 0) {
+      part.take_load(problem.blocks[b].f);
+      x0_ += part.rows * part.condensation.solve(part.load);
+    } else {
+      part.f = problem.blocks[b].f;
+      x0_ += part.all_rows * part.condensation.cholesky().solve(part.f);
+    }
   }
+}
+
+bool CondensedProblem::extend(const Problem& grown, const RigidMotions& rigid, const std::vector<int>& place, Clock& clock, Monitor& monitor) {
+  Stopwatch watch;
+  const int m = grown.rows();
+  std::vector<int> first;  // where the rows are that Γ was made for
+  std::vector<char> is_further(m, 1);
+  for (const int r : first_rows_) {
+    first.push_back(place[r]);
+    is_further[place[r]] = 0;
+  }
+  std::vector<std::vector<int>> numbers(parts_.size());  // of the further rows that act on each block
+  std::vector<SparseRows> all, further;
+  double flops = 0, again = 0;
+  for (std::size_t b = 0; b < parts_.size(); ++b) {
+    all.push_back(grown.rows_of(grown.blocks[b]));
+    for (const int r : rows_present(all[b]))
+      if (is_further[r]) numbers[b].push_back(r);
+    further.push_back(algebra::pick_rows(all[b], numbers[b]));
+    flops += parts_[b].condensation.flops_of_further(further[b]);
+    again += parts_[b].condensation.cholesky().flops();
+  }
+  if (flops > kFaster * again) return false;
+  require_memory(dense_bytes(m), text("the dense matrix of ", m, " rows"));
+  DenseMatrix W = DenseMatrix::Zero(m, m);
+  W(first, first) = W_(first_rows_, first_rows_);
+  for (std::size_t b = 0; b < parts_.size(); ++b) {
+    monitor.check();
+    monitor.phase(text("condensing '", grown.blocks[b].name, "' onto ", further[b].rows(), " further rows"));
+    const algebra::StopFactoring stop(monitor);
+    const algebra::Condensation::Further found = parts_[b].condensation.further(further[b]);
+    const DenseMatrix with_first = parts_[b].rows * found.on_boundary;
+    W(numbers[b], numbers[b]) += found.compliance;
+    W(first, numbers[b]) += with_first;
+    W(numbers[b], first) += with_first.transpose();
+  }
+  for (std::size_t b = 0; b < parts_.size(); ++b) parts_[b].all_rows.swap(all[b]);
+  W_ = std::move(W);
+  first_rows_ = std::move(first);
+  set_motions(grown, rigid);
+  clock.factor += watch.lap();
+  set_load(grown, rigid);
+  clock.iterate += watch.lap();
+  return true;
 }
 
 CondensedProblem::CondensedProblem(DenseMatrix W, Vector x0)
@@ -182,6 +244,7 @@ Vector CondensedProblem::together(const Vector& alpha, const Of& of) const {
 
 Vector CondensedProblem::recover(const Vector& lambda, const Vector& alpha) const {
   return together(alpha, [&](const Part& part, const Vector& moved) {
+    if (part.all_rows.rows() > 0) return part.condensation.response(part.f - part.all_rows.transpose() * lambda, moved);
     return part.condensation.recover(part.condensation.solve(part.load - part.rows.transpose() * lambda) + moved);
   });
 }
@@ -208,7 +271,9 @@ std::string CondensedProblem::ordering() const {
 
 const CondensedProblem& Condenser::condense(const Problem& problem, const RigidMotions& rigid,
                                             algebra::Ordering ordering, Clock& clock, Monitor& monitor) {
-  if (!condensed_) return condensed_.emplace(problem, rigid, ordering, clock, monitor);
+  const std::vector<int> place = std::exchange(place_, {});
+  if (condensed_ && !place.empty() && condensed_->extend(problem, rigid, place, clock, monitor)) return *condensed_;
+  if (!condensed_ || !place.empty()) return condensed_.emplace(problem, rigid, ordering, clock, monitor);
   if (problem.rows() != condensed_->rows() || problem.unknowns() != condensed_->unknowns())
     throw InputError(text("condensed before with ", condensed_->unknowns(), " unknowns and ", condensed_->rows(),
                           " rows, now there are ", problem.unknowns(), " and ", problem.rows()));

@@ -53,6 +53,9 @@ class CondensedProblem {
                    Clock& clock, Monitor& monitor);
   /// Takes another f and c, of a problem with the same K and B; `rigid` are its motions. What was factored stays.
   void set_load(const Problem& problem, const RigidMotions& rigid);
+  /// Takes further rows by sweeps with the factors that are there: row k becomes row place[k] of `grown`, which has the same K; `rigid` are its motions.
+  /// False, and nothing has changed, where that is more work than to factor again, or the factors do not feel all rigid motions.
+  bool extend(const Problem& grown, const RigidMotions& rigid, const std::vector<int>& place, Clock& clock, Monitor& monitor);
   /// Given as it is: W (rows × rows, positive semidefinite; symmetric, but that methods which need it say so) and
   /// x₀, no rigid motions, and no displacements to recover.
   CondensedProblem(algebra::DenseMatrix W, algebra::Vector x0);
@@ -85,13 +88,17 @@ class CondensedProblem {
  private:
   struct Part : CondensedBlock {
     int first_mode;
+    algebra::SparseRows all_rows = {};  ///< B on the block's unknowns, once rows act off Γ
+    algebra::Vector f = {};             ///< then
   };
   void add(CondensedBlock block);
+  void set_motions(const Problem& problem, const RigidMotions& rigid);
   /// Puts together what `of` makes of each part and its rigid motion on Γ.
   template <class Of>
   algebra::Vector together(const algebra::Vector& alpha, const Of& of) const;
 
   std::vector<Part> parts_;
+  std::vector<int> first_rows_;  ///< those that Γ was made for; rows taken later are others
   algebra::DenseMatrix W_, N_;
   algebra::Vector x0_, e_;
   algebra::SparseMatrix noticed_;    ///< basis of the motions that rows notice: modes × kernel_size
@@ -106,9 +113,12 @@ class Condenser {
   /// Valid until the next call. Throws InputError for another number of rows or unknowns than the first had.
   const CondensedProblem& condense(const Problem& problem, const RigidMotions& rigid, algebra::Ordering ordering,
                                    Clock& clock, Monitor& monitor);
+  /// The next problem has further rows, and the one before's row k as row place[k].
+  void grow(std::vector<int> place) { place_ = std::move(place); }
 
  private:
   std::optional<CondensedProblem> condensed_;
+  std::vector<int> place_;
 };
 
 }  // namespace dotyk::problem

@@ -40,6 +40,31 @@ TEST_CASE("Cholesky solves as the dense factorisation does") {
       }
 }
 
+TEST_CASE("a sweep of sparse rows is zero where they do not reach, and elsewhere as the sweep of columns") {
+  Random random(2);
+  for (const Ordering ordering : kOrderings) {
+    const auto grid = test::spring_grid(random, 30, 20, 2, 0.3);
+    const int n = static_cast<int>(grid.node.size());
+    Cholesky cholesky(grid.K, grid.node, {0, 1, 2, 31, 32}, ordering);
+    REQUIRE(cholesky.factor(grid.K));
+    Triplets entries;
+    for (int r = 0; r < 4; ++r)
+      for (int k = 0; k < 3; ++k) entries.emplace_back(r, random.below(60), random.between(-1, 1));
+    const SparseRows rows = from_triplets<SparseRows>(4, n, entries);
+    const ReachedSweep sweep = cholesky.sweep(rows);
+    const DenseMatrix found = sweep.values();
+    CHECK(static_cast<int>(sweep.positions().size()) < n);
+    CHECK(sweep.flops() > 0);
+    for (int r = 0; r < 4; ++r) {
+      const Vector whole = cholesky.forward(Vector(DenseMatrix(rows).row(r)));
+      Vector spread = Vector::Zero(n);
+      spread(sweep.positions()) = found.col(r);
+      CHECK(test::relative(spread, whole) < kRounding);
+      CHECK(test::relative(cholesky.boundary_part(sweep, found).col(r), cholesky.boundary_part(whole)) < kRounding);
+    }
+  }
+}
+
 TEST_CASE("a factorisation ends early where its watcher asks to stop, and is whole again afterwards") {
   struct Patience : Monitor {
     explicit Patience(int n) : left(n) {}

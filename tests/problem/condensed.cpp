@@ -83,6 +83,100 @@ TEST_CASE("condensed with a kernel: any balanced multipliers and any rigid motio
   CHECK((B * u - p.c - condensed.jump(lambda, alpha)).norm() < 1e-10 * u.norm());
 }
 
+namespace {
+
+/// The rows `picked` alone.
+Problem with_rows(const Problem& p, const std::vector<int>& picked) {
+  Problem out = p;
+  out.B = algebra::pick_rows(p.B, picked);
+  out.c = p.c(picked);
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("rows taken later, twice, give what all of them give at once") {
+  Random random(46);
+  const std::vector<int> some{1, 2, 4, 6, 7}, more{1, 2, 4, 5, 6, 7}, all{0, 1, 2, 3, 4, 5, 6, 7};
+  for (const Ordering ordering : {Ordering::minimum_degree, Ordering::nested_dissection}) {
+    Problem p;
+    for (const char* name : {"a", "b"})
+      add(p, test::block(name, test::spring_grid(random, 30, 20, 2, 0.2), random.vector(1200), 2, false));
+    p.B = test::rows(random_rows(random, p, 8));
+    p.c = random.vector(8);
+    Clock clock;
+    Monitor quiet;
+    const auto extend = [&](CondensedProblem& condensed, const Problem& grown, const std::vector<int>& place) {
+      return condensed.extend(grown, problem::rigid_motions(grown), place, clock, quiet);
+    };
+    const Problem begun = with_rows(p, some);
+    CondensedProblem condensed(begun, problem::rigid_motions(begun), ordering, clock, quiet);
+    REQUIRE(extend(condensed, with_rows(p, more), {0, 1, 2, 4, 5}));
+    REQUIRE(extend(condensed, p, {1, 2, 4, 5, 6, 7}));
+    const CondensedProblem at_once(p, problem::rigid_motions(p), ordering, clock, quiet);
+    const Vector lambda = random.vector(8), none;
+    CHECK(condensed.W() == DenseMatrix(condensed.W().transpose()));
+    CHECK(test::relative(condensed.W(), at_once.W()) < 1e-11);
+    CHECK(test::relative(condensed.x0(), at_once.x0()) < 1e-11);
+    CHECK(test::relative(condensed.recover(lambda, none), at_once.recover(lambda, none)) < 1e-11);
+    Problem heavier = p;
+    for (Block& block : heavier.blocks) block.f *= 2;
+    condensed.set_load(heavier, problem::rigid_motions(heavier));
+    const Vector u = condensed.recover(lambda, none);
+    CHECK((stiffness_times(heavier, u) + p.B.transpose() * lambda - test::load(heavier)).norm() < 1e-10 * test::load(heavier).norm());
+    CHECK((p.B * u - p.c - condensed.jump(lambda, none)).norm() < 1e-10 * u.norm());
+    const Vector f = random.vector(p.unknowns());
+    CHECK(test::relative(condensed.response(f, none), at_once.response(f, none)) < 1e-11);
+  }
+}
+
+TEST_CASE("rows taken later of free bodies: equilibrium and jumps") {
+  Random random(47);
+  Problem p;
+  add(p, test::block("held", test::spring_grid(random, 30, 20, 2, 0.2), random.vector(1200), 2, false));
+  add(p, test::block("free", test::spring_grid(random, 25, 22, 2, 0), random.vector(1100), 2, true));
+  p.B = test::rows(random_rows(random, p, 8));
+  p.c = random.vector(8);
+  Clock clock;
+  Monitor quiet;
+  const Problem begun = with_rows(p, {0, 2, 3, 5, 6});
+  CondensedProblem condensed(begun, problem::rigid_motions(begun), Ordering::automatic, clock, quiet);
+  REQUIRE(condensed.extend(p, problem::rigid_motions(p), {0, 2, 3, 5, 6}, clock, quiet));
+  REQUIRE(condensed.kernel_size() == 2);
+  const DenseMatrix N = condensed.N();
+  Vector lambda = random.vector(8);
+  lambda += N * (N.transpose() * N).inverse() * (condensed.e() - N.transpose() * lambda);
+  const Vector alpha = random.vector(2), u = condensed.recover(lambda, alpha), f = test::load(p);
+  CHECK((stiffness_times(p, u) + p.B.transpose() * lambda - f).norm() < 1e-10 * f.norm());
+  CHECK((p.B * u - p.c - condensed.jump(lambda, alpha)).norm() < 1e-10 * u.norm());
+}
+
+TEST_CASE("rows that would take longer to add than to factor again are not added, nor where the first felt no motion") {
+  Random random(48);
+  Clock clock;
+  Monitor quiet;
+  Problem many;
+  add(many, test::block("small", test::spring_grid(random, 6, 5, 2, 0.2), random.vector(60), 2, false));
+  many.B = test::rows(random_rows(random, many, 60));
+  many.c = random.vector(60);
+  const Problem one = with_rows(many, {3});
+  CondensedProblem condensed(one, problem::rigid_motions(one), Ordering::automatic, clock, quiet);
+  CHECK_FALSE(condensed.extend(many, problem::rigid_motions(many), {3}, clock, quiet));
+  CHECK(condensed.rows() == 1);
+
+  Problem unfelt;
+  add(unfelt, test::block("held", test::spring_grid(random, 20, 20, 2, 0.2), random.vector(800), 2, false));
+  add(unfelt, test::block("free", test::spring_grid(random, 20, 20, 2, 0), random.vector(800), 2, true));
+  DenseMatrix B = DenseMatrix::Zero(2, 1600);
+  B(0, 4) = B(1, 4) = 1;
+  B(1, 900) = -1;
+  unfelt.B = test::rows(B);
+  unfelt.c = Vector::Zero(2);
+  const Problem first = with_rows(unfelt, {0});
+  CondensedProblem without(first, problem::rigid_motions(first), Ordering::automatic, clock, quiet);
+  CHECK_FALSE(without.extend(unfelt, problem::rigid_motions(unfelt), {0}, clock, quiet));
+}
+
 TEST_CASE("a block that no row touches is solved along") {
   Random random(43);
   Problem p;

@@ -149,6 +149,18 @@ Vector Cholesky::boundary_part(const Vector& swept) const { return swept(it_->po
 void Cholesky::set_boundary_part(Vector& swept, const Vector& part) const { swept(it_->position) = part; }
 Vector Cholesky::backward(const Vector& swept) const { return it_->sweep(CHOLMOD_Pt, it_->sweep(CHOLMOD_Lt, swept)); }
 
+ReachedSweep Cholesky::sweep(const SparseRows& rows) const { return {*it_->factor, rows, it_->position}; }
+
+DenseMatrix Cholesky::boundary_part(const ReachedSweep& sweep, const DenseMatrix& values) const {
+  std::vector<int> places;
+  auto place = sweep.positions().begin();
+  for (const int position : it_->position) {
+    place = std::lower_bound(place, sweep.positions().end(), position);
+    places.push_back(static_cast<int>(place - sweep.positions().begin()));
+  }
+  return values(places, Eigen::all);
+}
+
 double Cholesky::flops() const { return it_->flops; }
 double Cholesky::bytes() const { return it_->factor ? 8.0 * it_->factor->xsize : 0; }
 const std::string& Cholesky::method() const { return it_->method; }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "algebra/direct/ordering.hpp"
+#include "algebra/direct/reached_sweep.hpp"
 #include "algebra/types.hpp"
 
 namespace dotyk::algebra {
@@ -50,6 +51,11 @@ class Cholesky {
   void set_boundary_part(Vector& swept, const Vector& part) const;
   /// The backward sweep: x with Lᵀ P x = y.
   Vector backward(const Vector& swept) const;
+
+  /// L⁻¹ P Bᵀ of sparse rows B, which must outlive it, where they reach, and on Γ.
+  ReachedSweep sweep(const SparseRows& rows) const;
+  /// The rows of its values on Γ, in boundary() order.
+  DenseMatrix boundary_part(const ReachedSweep& sweep, const DenseMatrix& values) const;
 
   double flops() const;              ///< predicted by the ordering
   double bytes() const;              ///< of the factor's numbers

@@ -1,11 +1,14 @@
 #include "algebra/direct/condensation.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "algebra/dense/decompositions.hpp"
 #include "algebra/dense/dense.hpp"
 #include "algebra/dense/generalised_inverse.hpp"
+#include "base/memory.hpp"
+#include "base/text.hpp"
 
 namespace dotyk::algebra {
 
@@ -64,6 +67,24 @@ DenseMatrix Condensation::half_compliance(const SparseRows& B) const {
   DenseMatrix x = DenseMatrix(B.transpose());
   solve_lower(l_gamma_, x);
   return x;
+}
+
+double Condensation::flops_of_further(const SparseRows& rows) const {
+  if (rows.rows() == 0) return 0;
+  if (!pinned_.empty()) return INFINITY;
+  const double k = static_cast<double>(rows.rows()), gamma = static_cast<double>(boundary().size());
+  const ReachedSweep sweep = factor_.sweep(rows);
+  return sweep.flops() + k * (k * static_cast<double>(sweep.positions().size()) + gamma * gamma);
+}
+
+Condensation::Further Condensation::further(const SparseRows& rows) const {
+  if (rows.rows() == 0) return {DenseMatrix(0, 0), DenseMatrix(boundary().size(), 0)};
+  const ReachedSweep sweep = factor_.sweep(rows);
+  require_memory(2 * sweep.bytes(), text("sweeps of ", rows.rows(), " rows"));
+  const DenseMatrix swept = sweep.values();
+  Further out{gram(swept), factor_.boundary_part(sweep, swept)};
+  solve_lower_transposed(l_gamma_, out.on_boundary);
+  return out;
 }
 
 Vector Condensation::recover(const Vector& boundary_values) const { return from_boundary(swept_, boundary_values); }

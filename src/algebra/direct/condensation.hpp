@@ -37,6 +37,13 @@ class Condensation {
   Vector solve(const Vector& b) const;
   /// X = L_Γ⁻¹ Bᵀ for a sparse B (rows × |Γ|, columns in boundary() order), so that XᵀX = B M⁻¹ Bᵀ.
   DenseMatrix half_compliance(const SparseRows& B) const;
+  /// Of rows C on all unknowns (rows × K.rows()): C K⁻¹ Cᵀ (of a generalised inverse where there is a kernel), and K⁻¹ Cᵀ on Γ.
+  struct Further {
+    DenseMatrix compliance, on_boundary;
+  };
+  Further further(const SparseRows& rows) const;
+  /// What that takes. Infinite where a rigid motion vanishes on Γ: then it is not to be had.
+  double flops_of_further(const SparseRows& rows) const;
   /// The whole u from u_Γ, for the f of the last condense(): one backward sweep.
   Vector recover(const Vector& boundary_values) const;
 

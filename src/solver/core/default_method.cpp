@@ -122,13 +122,18 @@ Result run_held(const problem::Problem& problem, bool by_multigrid, Beginning fr
 /// On the rows that may close; nothing where they do not hold the bodies, or come to no end.
 std::optional<Result> run_near(NearRows near, Beginning from, Monitor& monitor) {
   problem::Clock before;
+  const auto condenser = std::make_shared<problem::Condenser>();
   for (;;) try {
       const problem::Problem part = near.restricted();
-      Result result = run(part, default_method(part), near.restricted(from), monitor);
+      Beginning beginning = near.restricted(from);
+      beginning.condenser = condenser;
+      Result result = run(part, default_method(part), std::move(beginning), monitor);
       near.extend(result);
       result.clock.add_solve(before);
       if (!result.converged && !monitor.stop()) return std::nullopt;
+      const std::vector<char> kept = near.kept();
       if (!result.converged || !near.join(result.state.u)) return result;
+      condenser->grow(near.places(kept));
       before = result.clock;
       from = {result.active_sets.back(), nullptr, nullptr};
     } catch (const InputError&) {

@@ -16,14 +16,11 @@ namespace {
 
 /// Leaving rows out is worth it from so many rows on, and where it leaves out at least so many of a hundred.
 constexpr int kFewRows = 150, kLeastLeftOut = 20;
-/// Where bodies settle is a guess: rows that are apart by so much of the greatest overlap are taken as well.
-constexpr double kNearly = 0.1;
 
 /// How far rows overlap at rest or, where bodies are free, after they have settled; nothing where no row does.
 std::optional<Vector> overlap(const Problem& problem) {
   const bool held = std::all_of(problem.blocks.begin(), problem.blocks.end(), [](const problem::Block& b) { return b.kernel.cols() == 0; });
   std::optional<Vector> all = held ? std::optional<Vector>(-problem.c) : settled_overlap(problem);
-  if (all && !held) all->array() += kNearly * std::max(0.0, all->maxCoeff());
   const auto some = [&](const RowGroup& g) { return g.law->unilateral() && (all->segment(g.first, g.count).array() > 0).any(); };
   if (all && std::none_of(problem.groups.begin(), problem.groups.end(), some)) all.reset();
   return all;

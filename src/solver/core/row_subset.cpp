@@ -72,6 +72,13 @@ Problem RowSubset::restricted() const {
   return out;
 }
 
+std::vector<int> RowSubset::places(const std::vector<char>& smaller) const {
+  std::vector<int> out;
+  for (int k = 0; k < count(); ++k)
+    if (smaller[rows_[k]]) out.push_back(k);
+  return out;
+}
+
 std::vector<char> RowSubset::restricted(const std::vector<char>& flags) const {
   std::vector<char> out;
   if (!flags.empty())
