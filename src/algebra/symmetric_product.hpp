@@ -17,7 +17,8 @@ typename Numbers::PlainObject symmetric_product(const SparseMatrix& lower, const
   using Number = typename Numbers::Scalar;
   static_assert(Numbers::ColsAtCompileTime == 1 || Numbers::IsRowMajor);
   const int n = static_cast<int>(lower.cols());
-  const Eigen::Index count = Numbers::ColsAtCompileTime == 1 ? 1 : V.cols();
+  constexpr Eigen::Index known = Numbers::ColsAtCompileTime;
+  const Eigen::Index count = known == Eigen::Dynamic ? V.cols() : known;
   const auto add = [&](Number* to, int from, double a) {
     for (Eigen::Index c = 0; c < count; ++c) to[c] += a * V.data()[from * count + c];
   };

@@ -17,8 +17,8 @@ RigidFrame::RigidFrame(const mesh::Mesh& mesh) : dimension(mesh.dimension()), si
     for (int i = 0; i < dimension; ++i) centre[i] += mesh.node(n)[i] / mesh.node_count();
 }
 
-Eigen::RowVectorXd RigidFrame::row(const double* x, int i) const {
-  Eigen::RowVectorXd r = Eigen::RowVectorXd::Zero(count());
+RigidFrame::Row RigidFrame::row(const double* x, int i) const {
+  Row r = Row::Zero(count());
   double d[3] = {0, 0, 0};
   for (int k = 0; k < dimension; ++k) d[k] = (x[k] - centre[k]) / size;
   r[i] = 1;
@@ -84,7 +84,7 @@ Motion RigidFrame::motion(const Vector& c, double noise) const {
 RigidModes rigid_modes(const Mesh& mesh, const Numbering& numbering,
                        const std::vector<FacetSpring>& springs) {
   const RigidFrame frame(mesh);
-  std::vector<Eigen::RowVectorXd> held;
+  std::vector<RigidFrame::Row> held;
   for (std::size_t k = 0; k < numbering.unknown.size(); ++k)
     if (numbering.unknown[k] < 0)
       held.push_back(frame.row(mesh, k));

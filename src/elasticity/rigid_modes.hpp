@@ -14,11 +14,13 @@ struct RigidFrame {
   mesh::Point centre{0, 0, 0};  ///< mean of the nodes
   double size;
 
+  using Row = Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, 6>;
+
   explicit RigidFrame(const mesh::Mesh& mesh);
   int count() const { return dimension == 2 ? 3 : 6; }
   /// Component i of every motion at x; component k of all (node × dimension) of a mesh.
-  Eigen::RowVectorXd row(const double* x, int i) const;
-  Eigen::RowVectorXd row(const mesh::Mesh& mesh, std::size_t k) const {
+  Row row(const double* x, int i) const;
+  Row row(const mesh::Mesh& mesh, std::size_t k) const {
     return row(mesh.node(static_cast<int>(k) / dimension), static_cast<int>(k) % dimension);
   }
   /// What motion that is; coefficients below `noise` of the motion, and places below `noise` of the size, are

@@ -6,6 +6,7 @@
 #include "algebra/dense/decompositions.hpp"
 #include "algebra/dense/generalised_inverse.hpp"
 #include "algebra/symmetric_product.hpp"
+#include "base/parallel.hpp"
 #include "elasticity/kernel.hpp"
 #include "algebra/dense/dense.hpp"
 #include "elasticity/rigid_modes.hpp"
@@ -27,54 +28,66 @@ constexpr double kLost = 1e-15;
 /// To which weak motions are rigid, and so known.
 constexpr double kNoise = 1e-4;
 
-/// Volumes of the cells shared out to their nodes, in units of the whole; one entry an unknown.
+/// Volumes of the cells shared out to their nodes, in units of the whole; one entry an unknown. The last digit depends on the number of threads.
 Vector lumped_volumes(const mesh::Mesh& mesh, const Numbering& numbering) {
-  Vector node = Vector::Zero(mesh.node_count());
+  constexpr int kFew = 100'000;  // cells, for a thread
   const double size = mesh.size();
-  dispatch(mesh.element, [&]<class E>() {
-    double x[E::nodes][E::dim], g[E::nodes][E::dim];
-    for (int c = 0; c < mesh.cell_count(); ++c) {
-      cell_coordinates<E>(mesh, c, x);
-      double middle[E::dim] = {};
-      for (int i = 0; i < E::dim; ++i)
-        for (int a = 0; a < E::nodes; ++a) middle[i] += x[a][i] / E::nodes;
-      for (int a = 0; a < E::nodes; ++a)
-        for (int i = 0; i < E::dim; ++i) x[a][i] = (x[a][i] - middle[i]) / size;
-      const double volume = physical_gradient<E>(x, std::array<double, E::dim>{}, g);
-      for (int a = 0; a < E::nodes; ++a) node[mesh.cell(c)[a]] += volume;
-    }
+  const int threads = threads_for(mesh.cell_count(), kFew);
+  std::vector<Vector> shares(threads);
+  parallel_ranges(mesh.cell_count(), threads, [&](int k, int first, int end) {
+    shares[k] = Vector::Zero(mesh.node_count());
+    dispatch(mesh.element, [&]<class E>() {
+      double x[E::nodes][E::dim], g[E::nodes][E::dim];
+      for (int c = first; c < end; ++c) {
+        cell_coordinates<E>(mesh, c, x);
+        double middle[E::dim] = {};
+        for (int i = 0; i < E::dim; ++i)
+          for (int a = 0; a < E::nodes; ++a) middle[i] += x[a][i] / E::nodes;
+        for (int a = 0; a < E::nodes; ++a)
+          for (int i = 0; i < E::dim; ++i) x[a][i] = (x[a][i] - middle[i]) / size;
+        const double volume = physical_gradient<E>(x, std::array<double, E::dim>{}, g);
+        for (int a = 0; a < E::nodes; ++a) shares[k][mesh.cell(c)[a]] += volume;
+      }
+    });
   });
-  node /= node.sum();
+  for (int k = 1; k < threads; ++k) shares[0] += shares[k];
+  shares[0] /= shares[0].sum();
   Vector w(numbering.count());
-  for (int k = 0; k < numbering.count(); ++k) w[k] = node[numbering.node[k]];
+  for (int k = 0; k < numbering.count(); ++k) w[k] = shares[0][numbering.node[k]];
   return w;
+}
+
+/// The combinations of vectors, given by their Gram matrix, that are orthonormal; none of those whose square is less than `least`.
+DenseMatrix orthonormal_combinations(const DenseMatrix& gram, double least) {
+  const algebra::Eigenpairs pairs = algebra::eigenpairs(gram);
+  const Eigen::Index count = gram.cols() - (pairs.values.array() < least).count();
+  return pairs.vectors.rightCols(count) * pairs.values.tail(count).cwiseSqrt().cwiseInverse().asDiagonal();
 }
 
 /// A basis of V's span, orthonormal in M = diag(w), without combinations that M gives less than `least`.
 DenseMatrix orthonormal_in(const Vector& w, const DenseMatrix& V, double least) {
-  const algebra::Eigenpairs gram = algebra::eigenpairs(V.transpose() * w.asDiagonal() * V);
-  const Eigen::Index count = V.cols() - (gram.values.array() < least).count();
-  return V * gram.vectors.rightCols(count) * gram.values.tail(count).cwiseSqrt().cwiseInverse().asDiagonal();
+  return V * orthonormal_combinations(V.transpose() * w.asDiagonal() * V, least);
 }
+
+using ByRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// What the measure is made of, on the unknowns.
 struct Motions {
   RigidFrame frame;
-  Vector w;            ///< M
-  DenseMatrix F;       ///< rigid motions of the frame: unknowns × 3 or 6
-  DenseMatrix Q;       ///< M-orthonormal, without the kernel
-  Vector dilatation;
+  Vector w;  ///< M
+  ByRows F;  ///< rigid motions of the frame, 3 or 6, and a dilatation: its last column
 
-  Motions(const mesh::Mesh& mesh, const Numbering& numbering, const DenseMatrix& kernel)
-      : frame(mesh), w(lumped_volumes(mesh, numbering)), F(all_rigid_motions(mesh, numbering.unknown, numbering.count())),
-        dilatation(numbering.count()) {
+  Motions(const mesh::Mesh& mesh, const Numbering& numbering) : frame(mesh), w(lumped_volumes(mesh, numbering)), F(numbering.count(), frame.count() + 1) {
+    const int d = frame.dimension;
     for (std::size_t k = 0; k < numbering.unknown.size(); ++k) {
-      const int i = static_cast<int>(k) % frame.dimension;
-      if (numbering.unknown[k] >= 0)
-        dilatation[numbering.unknown[k]] = (mesh.node(static_cast<int>(k) / frame.dimension)[i] - frame.centre[i]) / frame.size;
+      if (numbering.unknown[k] < 0) continue;
+      const int node = static_cast<int>(k) / d, i = static_cast<int>(k) % d;
+      F.row(numbering.unknown[k]) << frame.row(mesh, k), (mesh.node(node)[i] - frame.centre[i]) / frame.size;
     }
-    Q = orthonormal_in(w, without(kernel, F), 1e-12);  // less what is in the kernel, or nothing on these unknowns
   }
+
+  auto rigid() const { return F.leftCols(frame.count()); }
+  auto dilatation() const { return F.col(frame.count()); }
 
   /// u less its M-orthogonal projection onto the kernel.
   DenseMatrix without(const DenseMatrix& kernel, const DenseMatrix& u) const {
@@ -86,7 +99,7 @@ struct Motions {
   /// The coefficients of rigid motions given on the unknowns.
   DenseMatrix coefficients(const DenseMatrix& motion) const {
     const Vector root = w.cwiseSqrt();
-    return algebra::MinimumNorm(root.asDiagonal() * F).solve(DenseMatrix(root.asDiagonal() * motion));
+    return algebra::MinimumNorm(root.asDiagonal() * rigid()).solve(DenseMatrix(root.asDiagonal() * motion));
   }
 
   std::vector<Motion> named(const DenseMatrix& motion) const {
@@ -97,7 +110,12 @@ struct Motions {
   }
 };
 
-using ByRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+/// FᵀKF, in one pass over K.
+template <int Columns>
+DenseMatrix energies(const SparseMatrix& lower, const ByRows& F) {
+  using Numbers = Eigen::Matrix<double, Eigen::Dynamic, Columns, Eigen::RowMajor>;
+  return F.transpose() * algebra::symmetric_product(lower, Eigen::Map<const Numbers>(F.data(), F.rows(), Columns));
+}
 
 /// The least Rayleigh quotient (K, M) on the span of V; infinite where V is nothing.
 double least_quotient(const Motions& motions, const SparseMatrix& lower, DenseMatrix V) {
@@ -108,8 +126,8 @@ double least_quotient(const Motions& motions, const SparseMatrix& lower, DenseMa
   return algebra::eigenvalues(Q.transpose() * algebra::symmetric_product(lower, ByRows(Q)))[0];
 }
 
-WeakMotions by_response(const Motions& motions, const Numbering& numbering, const SparseMatrix& lower,
-                        const DenseMatrix& kernel) {
+/// Q: rigid motions without the kernel, M-orthonormal.
+WeakMotions by_response(const Motions& motions, const DenseMatrix& Q, const Numbering& numbering, const SparseMatrix& lower, const DenseMatrix& kernel) {
   WeakMotions result;
   algebra::GeneralisedInverse inverse(lower, numbering.node, kernel);
   if (!inverse.factor(lower)) return result;  // singular for another reason, which the solver tells
@@ -117,19 +135,19 @@ WeakMotions by_response(const Motions& motions, const Numbering& numbering, cons
     return motions.without(kernel, inverse.apply(motions.w.asDiagonal() * u));
   };
   const auto deformation = [&](const DenseMatrix& u) {
-    return DenseMatrix(u - motions.Q * (motions.Q.transpose() * motions.w.asDiagonal() * u));
+    return DenseMatrix(u - Q * (Q.transpose() * motions.w.asDiagonal() * u));
   };
-  const DenseMatrix U = response(motions.Q), compliance = motions.Q.transpose() * motions.w.asDiagonal() * U;
+  const DenseMatrix U = response(Q), compliance = Q.transpose() * motions.w.asDiagonal() * U;
   const algebra::Eigenpairs soft = algebra::eigenpairs((compliance + compliance.transpose()) / 2);
   DenseMatrix D(U.rows(), U.cols() + 1);
-  D << deformation(U / U.lpNorm<Eigen::Infinity>()), deformation(motions.without(kernel, motions.dilatation));
+  D << deformation(U / U.lpNorm<Eigen::Infinity>()), deformation(motions.without(kernel, motions.dilatation()));
   const double own = least_quotient(motions, lower, deformation(response(D)));
   std::vector<Eigen::Index> weak;
   for (Eigen::Index k = 0; k < U.cols(); ++k)
     if (1 / soft.values[k] < kNearlyFree * own) weak.push_back(k);
   if (weak.empty()) return result;
   result.stiffness = 1 / (soft.values[weak.back()] * own);
-  result.motions = motions.named(motions.Q * soft.vectors(Eigen::all, weak));
+  result.motions = motions.named(Q * soft.vectors(Eigen::all, weak));
   return result;
 }
 
@@ -156,18 +174,23 @@ WeakMotions weak_motions(const mesh::Mesh& mesh, const Numbering& numbering, con
                          const DenseMatrix& kernel) {
   const int all = mesh.dimension() == 2 ? 3 : 6;
   if (numbering.count() == 0 || kernel.cols() == all) return {};
-  const Motions motions(mesh, numbering, kernel);
-  if (motions.Q.cols() == 0) return {};
-  const Eigen::Index rigid = motions.Q.cols();
-  ByRows V(motions.Q.rows(), rigid + 1);
-  V << motions.Q, motions.dilatation;
-  const DenseMatrix energies = V.transpose() * algebra::symmetric_product(lower, V);
-  const algebra::Eigenpairs trial = algebra::eigenpairs(energies.topLeftCorner(rigid, rigid));
-  const double own = energies(rigid, rigid) / motions.dilatation.cwiseAbs2().dot(motions.w);
+  const Motions motions(mesh, numbering);
+  const Vector& w = motions.w;
+  DenseMatrix gram = motions.rigid().transpose() * w.asDiagonal() * motions.rigid();
+  if (kernel.cols() > 0) {
+    const DenseMatrix weighted = w.asDiagonal() * kernel, common = weighted.transpose() * motions.rigid();
+    gram -= common.transpose() * algebra::Ldlt(weighted.transpose() * kernel).solve(common);
+  }
+  const DenseMatrix T = orthonormal_combinations(gram, 1e-12);  // less what is in the kernel, or nothing on these unknowns
+  if (T.cols() == 0) return {};
+  const DenseMatrix E = all == 3 ? energies<4>(lower, motions.F) : energies<7>(lower, motions.F);
+  const algebra::Eigenpairs trial = algebra::eigenpairs(T.transpose() * E.topLeftCorner(all, all) * T);
+  const double own = E(all, all) / motions.dilatation().cwiseAbs2().dot(w);
   if (!std::isfinite(own) || !(trial.values[0] < kSuspicious * own)) return {};
-  const DenseMatrix lost = lost_in_rounding(motions, mesh, numbering, lower, motions.Q * trial.vectors);
+  const DenseMatrix Q = motions.without(kernel, motions.rigid() * T);
+  const DenseMatrix lost = lost_in_rounding(motions, mesh, numbering, lower, Q * trial.vectors);
   if (lost.cols() > 0) return {0, motions.named(lost)};
-  return by_response(motions, numbering, lower, kernel);
+  return by_response(motions, Q, numbering, lower, kernel);
 }
 
 }  // namespace dotyk::elasticity

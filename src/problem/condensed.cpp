@@ -19,7 +19,7 @@ using algebra::Vector;
 
 namespace {
 
-/// Sweeps with many columns do so many times as many operations a second as a factor, which has to be ordered as well.
+/// The rate of sweeps with many columns, in rates of a factorisation; and they need no ordering.
 constexpr double kFaster = 2;
 
 /// What orderings keep together, one entry an unknown, and which of it goes last.
@@ -162,32 +162,44 @@ bool CondensedProblem::extend(const Problem& grown, const RigidMotions& rigid, c
     first.push_back(place[r]);
     is_further[place[r]] = 0;
   }
-  std::vector<std::vector<int>> numbers(parts_.size());  // of the further rows that act on each block
-  std::vector<SparseRows> all, further;
-  double flops = 0, again = 0;
+  struct Rows {
+    SparseRows all, further;
+    std::vector<int> number;  // of the further ones, which act on this block
+  };
+  std::vector<Rows> rows(parts_.size());
+  std::vector<algebra::ReachedSweep> sweeps;
+  std::vector<double> flops;
+  double again = 0, sum = 0, bytes = dense_bytes(m);
   for (std::size_t b = 0; b < parts_.size(); ++b) {
-    all.push_back(grown.rows_of(grown.blocks[b]));
-    for (const int r : rows_present(all[b]))
-      if (is_further[r]) numbers[b].push_back(r);
-    further.push_back(algebra::pick_rows(all[b], numbers[b]));
-    flops += parts_[b].condensation.flops_of_further(further[b]);
-    again += parts_[b].condensation.cholesky().flops();
+    const algebra::Condensation& condensation = parts_[b].condensation;
+    rows[b].all = grown.rows_of(grown.blocks[b]);
+    for (const int r : rows_present(rows[b].all))
+      if (is_further[r]) rows[b].number.push_back(r);
+    rows[b].further = algebra::pick_rows(rows[b].all, rows[b].number);
+    if (condensation.are_far(rows[b].further, grown.blocks[b].kernel)) return false;
+    again += condensation.cholesky().flops();
+    if (rows[b].number.empty()) continue;
+    sweeps.push_back(condensation.cholesky().sweep(rows[b].further));
+    flops.push_back(sweeps.back().flops());
+    sum += flops.back(), bytes += 2 * sweeps.back().bytes();
   }
-  if (flops > kFaster * again) return false;
-  require_memory(dense_bytes(m), text("the dense matrix of ", m, " rows"));
+  if (sum > kFaster * again || bytes > available_memory()) return false;
+  std::vector<int> block;  // of each sweep
+  for (std::size_t b = 0; b < parts_.size(); ++b)
+    if (!rows[b].number.empty()) block.push_back(static_cast<int>(b));
+  std::vector<algebra::Condensation::Further> found(block.size());
+  const auto phase = [&](int k, int) { return text("condensing '", grown.blocks[block[k]].name, "' onto ", sweeps[k].rows(), " further rows"); };
+  algebra::factor_in_threads(flops, phase, monitor, [&](int k) { found[k] = parts_[block[k]].condensation.further(sweeps[k]); });
   DenseMatrix W = DenseMatrix::Zero(m, m);
   W(first, first) = W_(first_rows_, first_rows_);
-  for (std::size_t b = 0; b < parts_.size(); ++b) {
-    monitor.check();
-    monitor.phase(text("condensing '", grown.blocks[b].name, "' onto ", further[b].rows(), " further rows"));
-    const algebra::StopFactoring stop(monitor);
-    const algebra::Condensation::Further found = parts_[b].condensation.further(further[b]);
-    const DenseMatrix with_first = parts_[b].rows * found.on_boundary;
-    W(numbers[b], numbers[b]) += found.compliance;
-    W(first, numbers[b]) += with_first;
-    W(numbers[b], first) += with_first.transpose();
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    const std::vector<int>& number = rows[block[k]].number;
+    const DenseMatrix with_first = parts_[block[k]].rows * found[k].on_boundary;
+    W(number, number) += found[k].compliance;
+    W(first, number) += with_first;
+    W(number, first) += with_first.transpose();
   }
-  for (std::size_t b = 0; b < parts_.size(); ++b) parts_[b].all_rows.swap(all[b]);
+  for (std::size_t b = 0; b < parts_.size(); ++b) parts_[b].all_rows.swap(rows[b].all);
   W_ = std::move(W);
   first_rows_ = std::move(first);
   set_motions(grown, rigid);
@@ -271,9 +283,12 @@ std::string CondensedProblem::ordering() const {
 
 const CondensedProblem& Condenser::condense(const Problem& problem, const RigidMotions& rigid,
                                             algebra::Ordering ordering, Clock& clock, Monitor& monitor) {
-  const std::vector<int> place = std::exchange(place_, {});
-  if (condensed_ && !place.empty() && condensed_->extend(problem, rigid, place, clock, monitor)) return *condensed_;
-  if (!condensed_ || !place.empty()) return condensed_.emplace(problem, rigid, ordering, clock, monitor);
+  if (const auto place = std::exchange(place_, std::nullopt); place && condensed_) {
+    const bool follows = static_cast<int>(place->size()) == condensed_->rows() && problem.unknowns() == condensed_->unknowns();
+    if (follows && condensed_->extend(problem, rigid, *place, clock, monitor)) return *condensed_;
+    condensed_.reset();
+  }
+  if (!condensed_) return condensed_.emplace(problem, rigid, ordering, clock, monitor);
   if (problem.rows() != condensed_->rows() || problem.unknowns() != condensed_->unknowns())
     throw InputError(text("condensed before with ", condensed_->unknowns(), " unknowns and ", condensed_->rows(),
                           " rows, now there are ", problem.unknowns(), " and ", problem.rows()));

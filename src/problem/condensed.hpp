@@ -54,7 +54,8 @@ class CondensedProblem {
   /// Takes another f and c, of a problem with the same K and B; `rigid` are its motions. What was factored stays.
   void set_load(const Problem& problem, const RigidMotions& rigid);
   /// Takes further rows by sweeps with the factors that are there: row k becomes row place[k] of `grown`, which has the same K; `rigid` are its motions.
-  /// False, and nothing has changed, where that is more work than to factor again, or the factors do not feel all rigid motions.
+  /// All rows but the first problem's are swept, each time. False, with nothing changed, where factoring again is less work or takes less memory, or where
+  /// rigid motions move a further row much further than the first problem's (Condensation::are_far()).
   bool extend(const Problem& grown, const RigidMotions& rigid, const std::vector<int>& place, Clock& clock, Monitor& monitor);
   /// Given as it is: W (rows × rows, positive semidefinite; symmetric, but that methods which need it say so) and
   /// x₀, no rigid motions, and no displacements to recover.
@@ -76,7 +77,8 @@ class CondensedProblem {
   const algebra::Vector& e() const { return e_; }
 
   algebra::Vector jump(const algebra::Vector& lambda, const algebra::Vector& alpha) const;
-  /// All unknowns, from the multipliers and the amounts of rigid motion: one backward sweep a block.
+  /// All unknowns, from the multipliers and the amounts of rigid motion: one backward sweep a block, and a forward one before it once rows were taken
+  /// later.
   algebra::Vector recover(const algebra::Vector& lambda, const algebra::Vector& alpha) const;
 
   /// The displacement K⁻¹f + Rα under other forces f (unknowns), by a generalised inverse for free blocks, with amounts α of rigid motions.
@@ -88,8 +90,9 @@ class CondensedProblem {
  private:
   struct Part : CondensedBlock {
     int first_mode;
-    algebra::SparseRows all_rows = {};  ///< B on the block's unknowns, once rows act off Γ
-    algebra::Vector f = {};             ///< then
+    // Once rows were taken later, which may act off Γ; else no rows.
+    algebra::SparseRows all_rows = {};  ///< B on the block's unknowns
+    algebra::Vector f = {};
   };
   void add(CondensedBlock block);
   void set_motions(const Problem& problem, const RigidMotions& rigid);
@@ -106,19 +109,19 @@ class CondensedProblem {
   int unknowns_ = 0, modes_ = 0;
 };
 
-/// Condenses problems that differ in f and c alone: the first is ordered, factored and condensed, the
+/// Condenses problems that differ in f and c alone, or by further rows: the first is ordered, factored and condensed, the
 /// following take over its factors and W.
 class Condenser {
  public:
-  /// Valid until the next call. Throws InputError for another number of rows or unknowns than the first had.
+  /// Valid until the next call. Throws InputError for another number of rows or unknowns than the one before had, but after grow().
   const CondensedProblem& condense(const Problem& problem, const RigidMotions& rigid, algebra::Ordering ordering,
                                    Clock& clock, Monitor& monitor);
-  /// The next problem has further rows, and the one before's row k as row place[k].
+  /// The next problem has further rows, and row k of the one before as row place[k].
   void grow(std::vector<int> place) { place_ = std::move(place); }
 
  private:
   std::optional<CondensedProblem> condensed_;
-  std::vector<int> place_;
+  std::optional<std::vector<int>> place_;
 };
 
 }  // namespace dotyk::problem

@@ -43,9 +43,7 @@ Parts parts(const Problem& problem) {
 }
 
 Forces external_forces(const Problem& problem, const State& state) {
-  Forces all{{}, problem.B.transpose() * state.lambda, Vector(problem.unknowns())};
-  for (const Block& block : problem.blocks) all.load.segment(block.first, block.size()) = block.f;
-  return all;
+  return {{}, problem.B.transpose() * state.lambda, problem.load()};
 }
 
 Forces forces(const Problem& problem, const State& state) {

@@ -63,6 +63,14 @@ Vector Problem::row_compliance() const { return over_diagonal(*this, [](double k
 
 SparseRows Problem::rows_of(const Block& block) const { return B.middleCols(block.first, block.size()); }
 
+std::string Problem::name_of(int row) const { return row_name ? row_name(row) : text("row ", row + 1); }
+
+Vector Problem::load() const {
+  Vector f(unknowns());
+  for (const Block& block : blocks) f.segment(block.first, block.size()) = block.f;
+  return f;
+}
+
 void require_kernel(const SparseMatrix& K, const algebra::DenseMatrix& kernel, const std::string& name,
                     const std::vector<Motion>& motions) {
   // Between rounding (a few 1e-16, flat cells, great distances and near incompressibility included) and whatever holds a body.

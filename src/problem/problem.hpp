@@ -94,6 +94,8 @@ struct Problem {
   algebra::Vector row_compliance() const;
   /// B's columns of one block, in the block's own numbering.
   algebra::SparseRows rows_of(const Block& block) const;
+  algebra::Vector load() const;            ///< f of all blocks
+  std::string name_of(int row) const;      ///< by row_name, or "row 7"
 };
 
 /// Throws InputError where K (lower triangle) resists one of the modes said to be its kernel:

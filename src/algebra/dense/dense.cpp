@@ -15,6 +15,8 @@ void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* inf
 void dtrsm_(const char* side, const char* uplo, const char* trans, const char* diag, const int* m,
             const int* n, const double* alpha, const double* a, const int* lda, double* b,
             const int* ldb);
+void dgemm_(const char* trans_a, const char* trans_b, const int* m, const int* n, const int* k, const double* alpha, const double* a,
+            const int* lda, const double* b, const int* ldb, const double* beta, double* c, const int* ldc);
 void dsyrk_(const char* uplo, const char* trans, const int* n, const int* k, const double* alpha,
             const double* a, const int* lda, const double* beta, double* c, const int* ldc);
 void dgeqrf_(const int* m, const int* n, double* a, const int* lda, double* tau, double* work, const int* lwork, int* info);
@@ -27,9 +29,9 @@ void dgesdd_(const char* jobz, const int* m, const int* n, double* a, const int*
 namespace dotyk::algebra {
 namespace {
 
-void triangular_solve(const DenseMatrix& l, Eigen::Ref<DenseMatrix> x, const char* transposed) {
+void triangular_solve(const Eigen::Ref<const DenseMatrix>& l, Eigen::Ref<DenseMatrix> x, const char* transposed) {
   const int m = static_cast<int>(x.rows()), n = static_cast<int>(x.cols()),
-            lda = static_cast<int>(l.rows()), ldb = static_cast<int>(x.outerStride());
+            lda = static_cast<int>(l.outerStride()), ldb = static_cast<int>(x.outerStride());
   if (l.rows() != x.rows()) throw std::logic_error("triangular solve: sizes differ");
   if (m == 0 || n == 0) return;
   const BlasThreads threads(1.0 * m * m * n);
@@ -64,8 +66,20 @@ bool cholesky(DenseMatrix& a) {
   return true;
 }
 
-void solve_lower(const DenseMatrix& l, Eigen::Ref<DenseMatrix> x) { triangular_solve(l, x, "N"); }
-void solve_lower_transposed(const DenseMatrix& l, Eigen::Ref<DenseMatrix> x) { triangular_solve(l, x, "T"); }
+void solve_lower(const Eigen::Ref<const DenseMatrix>& l, Eigen::Ref<DenseMatrix> x) { triangular_solve(l, x, "N"); }
+void solve_lower_transposed(const Eigen::Ref<const DenseMatrix>& l, Eigen::Ref<DenseMatrix> x) { triangular_solve(l, x, "T"); }
+
+DenseMatrix product(const Eigen::Ref<const DenseMatrix>& a, const Eigen::Ref<const DenseMatrix>& b) {
+  const int m = static_cast<int>(a.rows()), n = static_cast<int>(b.cols()), k = static_cast<int>(a.cols()),
+            lda = static_cast<int>(a.outerStride()), ldb = static_cast<int>(b.outerStride());
+  if (a.cols() != b.rows()) throw std::logic_error("product: sizes differ");
+  if (m == 0 || n == 0 || k == 0) return DenseMatrix::Zero(m, n);
+  DenseMatrix c(m, n);
+  const BlasThreads threads(2.0 * m * n * k);
+  const double one = 1, zero = 0;
+  stoppable([&] { dgemm_("N", "N", &m, &n, &k, &one, a.data(), &lda, b.data(), &ldb, &zero, c.data(), &m); });
+  return c;
+}
 
 DenseMatrix gram(const DenseMatrix& x) { return rank_update(x, "T"); }
 DenseMatrix square(const DenseMatrix& l) { return rank_update(l, "N"); }

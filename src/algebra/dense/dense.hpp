@@ -11,10 +11,13 @@ namespace dotyk::algebra {
 bool cholesky(DenseMatrix& a);
 
 /// X := L⁻¹ X, L lower triangular.
-void solve_lower(const DenseMatrix& l, Eigen::Ref<DenseMatrix> x);
+void solve_lower(const Eigen::Ref<const DenseMatrix>& l, Eigen::Ref<DenseMatrix> x);
 
 /// X := L⁻ᵀ X.
-void solve_lower_transposed(const DenseMatrix& l, Eigen::Ref<DenseMatrix> x);
+void solve_lower_transposed(const Eigen::Ref<const DenseMatrix>& l, Eigen::Ref<DenseMatrix> x);
+
+/// A B.
+DenseMatrix product(const Eigen::Ref<const DenseMatrix>& a, const Eigen::Ref<const DenseMatrix>& b);
 
 /// XᵀX, both triangles.
 DenseMatrix gram(const DenseMatrix& x);

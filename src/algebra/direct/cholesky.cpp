@@ -107,14 +107,11 @@ namespace {
 /// Calls visit(column, rows, values, count) for every column of a supernodal factor: its entries from the diagonal down.
 template <class Visit>
 void each_column(const cholmod_factor& f, const Visit& visit) {
-  if (!f.is_super) throw std::runtime_error("the factor is not supernodal");
-  const int *super = static_cast<int*>(f.super), *pi = static_cast<int*>(f.pi), *px = static_cast<int*>(f.px), *rows = static_cast<int*>(f.s);
-  const double* x = static_cast<double*>(f.x);
-  for (std::size_t s = 0; s < f.nsuper; ++s)
-    for (int column = super[s]; column < super[s + 1]; ++column) {
-      const int first = column - super[s], height = pi[s + 1] - pi[s];
-      visit(column, rows + pi[s] + first, x + px[s] + static_cast<std::ptrdiff_t>(first) * (height + 1), height - first);
-    }
+  for (std::size_t s = 0; s < f.nsuper; ++s) {
+    const Supernode node(f, s);
+    for (int k = 0; k < node.width; ++k)
+      visit(node.first + k, node.rows + k, node.values + static_cast<std::ptrdiff_t>(k) * (node.height + 1), node.height - k);
+  }
 }
 
 }  // namespace

@@ -52,7 +52,7 @@ class Cholesky {
   /// The backward sweep: x with Lᵀ P x = y.
   Vector backward(const Vector& swept) const;
 
-  /// L⁻¹ P Bᵀ of sparse rows B, which must outlive it, where they reach, and on Γ.
+  /// The forward sweep of sparse rows B, at the positions that they reach and on Γ. B and this must outlive it.
   ReachedSweep sweep(const SparseRows& rows) const;
   /// The rows of its values on Γ, in boundary() order.
   DenseMatrix boundary_part(const ReachedSweep& sweep, const DenseMatrix& values) const;

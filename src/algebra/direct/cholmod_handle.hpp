@@ -48,6 +48,21 @@ class CholmodCommon {
   cholmod_common common_;
 };
 
+/// Columns first … first + width − 1 of a supernodal L: in each the same `height` rows, the columns' own ones first.
+struct Supernode {
+  int first, width, height;
+  const int* rows;
+  const double* values;  ///< height × width
+
+  Supernode(const cholmod_factor& f, std::size_t s) {
+    if (!f.is_super) throw std::runtime_error("the factor is not supernodal");
+    const int *super = static_cast<int*>(f.super), *pi = static_cast<int*>(f.pi);
+    first = super[s], width = super[s + 1] - first, height = pi[s + 1] - pi[s];
+    rows = static_cast<int*>(f.s) + pi[s];
+    values = static_cast<double*>(f.x) + static_cast<int*>(f.px)[s];
+  }
+};
+
 /// A view of a lower-triangular Eigen matrix as CHOLMOD sees it; no copy.
 inline cholmod_sparse view(const SparseMatrix& lower) {
   cholmod_sparse a{};

@@ -1,14 +1,11 @@
 #include "algebra/direct/condensation.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
 #include "algebra/dense/decompositions.hpp"
 #include "algebra/dense/dense.hpp"
 #include "algebra/dense/generalised_inverse.hpp"
-#include "base/memory.hpp"
-#include "base/text.hpp"
 
 namespace dotyk::algebra {
 
@@ -22,7 +19,9 @@ Condensation::Condensation(const SparseMatrix& K, const std::vector<int>& node,
   const SingularFactors svd = singular_factors(kernel_);
   const Eigen::Index rank = svd.rank(1e-9 * kernel.lpNorm<Eigen::Infinity>());
   basis_ = svd.U.leftCols(rank);
-  pinned_ = fixing_unknowns(kernel * svd.V.rightCols(modes - rank));
+  felt_ = svd.V.leftCols(rank) * svd.values.head(rank).cwiseInverse().asDiagonal();
+  unfelt_ = svd.V.rightCols(modes - rank);
+  pinned_ = fixing_unknowns(kernel * unfelt_);
 }
 
 bool Condensation::factor(const SparseMatrix& K) {
@@ -69,18 +68,17 @@ DenseMatrix Condensation::half_compliance(const SparseRows& B) const {
   return x;
 }
 
-double Condensation::flops_of_further(const SparseRows& rows) const {
-  if (rows.rows() == 0) return 0;
-  if (!pinned_.empty()) return INFINITY;
-  const double k = static_cast<double>(rows.rows()), gamma = static_cast<double>(boundary().size());
-  const ReachedSweep sweep = factor_.sweep(rows);
-  return sweep.flops() + k * (k * static_cast<double>(sweep.positions().size()) + gamma * gamma);
+bool Condensation::are_far(const SparseRows& rows, const DenseMatrix& kernel) const {
+  constexpr double kFar = 10, kVanishes = 1e-9;
+  if (kernel.cols() == 0 || rows.rows() == 0) return false;
+  if (boundary().empty()) return true;
+  const DenseMatrix moved = rows * kernel;
+  const Vector size = rows.cwiseAbs() * Vector::Ones(rows.cols());
+  const double most = kFar * basis_.rowwise().norm().maxCoeff(), least = kVanishes * kernel.lpNorm<Eigen::Infinity>();
+  return ((moved * felt_).rowwise().norm().array() > most * size.array()).any() || ((moved * unfelt_).rowwise().norm().array() > least * size.array()).any();
 }
 
-Condensation::Further Condensation::further(const SparseRows& rows) const {
-  if (rows.rows() == 0) return {DenseMatrix(0, 0), DenseMatrix(boundary().size(), 0)};
-  const ReachedSweep sweep = factor_.sweep(rows);
-  require_memory(2 * sweep.bytes(), text("sweeps of ", rows.rows(), " rows"));
+Condensation::Further Condensation::further(const ReachedSweep& sweep) const {
   const DenseMatrix swept = sweep.values();
   Further out{gram(swept), factor_.boundary_part(sweep, swept)};
   solve_lower_transposed(l_gamma_, out.on_boundary);

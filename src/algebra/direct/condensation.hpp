@@ -37,13 +37,14 @@ class Condensation {
   Vector solve(const Vector& b) const;
   /// X = L_Γ⁻¹ Bᵀ for a sparse B (rows × |Γ|, columns in boundary() order), so that XᵀX = B M⁻¹ Bᵀ.
   DenseMatrix half_compliance(const SparseRows& B) const;
-  /// Of rows C on all unknowns (rows × K.rows()): C K⁻¹ Cᵀ (of a generalised inverse where there is a kernel), and K⁻¹ Cᵀ on Γ.
+  /// Of rows C on all unknowns, given by their sweep with cholesky(): C K⁻¹ Cᵀ (of a generalised inverse where there is a kernel), and K⁻¹ Cᵀ on Γ.
   struct Further {
     DenseMatrix compliance, on_boundary;
   };
-  Further further(const SparseRows& rows) const;
-  /// What that takes. Infinite where a rigid motion vanishes on Γ: then it is not to be had.
-  double flops_of_further(const SparseRows& rows) const;
+  Further further(const ReachedSweep& sweep) const;
+  /// Do rigid motions move such rows much further than Γ, to which R̂ belongs? Then the generalised inverse moves them likewise, and digits are lost.
+  /// `kernel`: as it was given.
+  bool are_far(const SparseRows& rows, const DenseMatrix& kernel) const;
   /// The whole u from u_Γ, for the f of the last condense(): one backward sweep.
   Vector recover(const Vector& boundary_values) const;
 
@@ -59,7 +60,8 @@ class Condensation {
   Cholesky factor_;
   std::vector<int> pinned_;   ///< unknowns off Γ that hold the motions vanishing on Γ
   DenseMatrix kernel_;        ///< R on Γ
-  DenseMatrix basis_;         ///< R̂
+  DenseMatrix basis_;         ///< R̂ = R V
+  DenseMatrix felt_, unfelt_; ///< V; combinations of R that vanish on Γ
   double tau_ = 0;
   DenseMatrix l_gamma_;       ///< L_Γ, of M
   Vector swept_;

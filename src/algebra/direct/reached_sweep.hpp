@@ -12,11 +12,12 @@ namespace dotyk::algebra {
 /// leads from an unknown of B up to the root (Davis 2006 §3.2): there alone it is made.
 class ReachedSweep {
  public:
-  /// `also`: positions in the factor's order, closed under "ancestor", that are counted as reached.
+  /// Both must outlive this. `also`: positions in the factor's order that count as reached.
   ReachedSweep(const cholmod_factor_struct& factor, const SparseRows& rows, const std::vector<int>& also);
 
-  double flops() const { return 2.0 * entries_ * static_cast<double>(rows_.rows()); }
-  double bytes() const { return 8.0 * static_cast<double>(positions_.size()) * static_cast<double>(rows_.rows()); }
+  Eigen::Index rows() const { return rows_.rows(); }
+  double flops() const { return 2.0 * entries_ * static_cast<double>(rows()); }
+  double bytes() const { return 8.0 * static_cast<double>(positions_.size()) * static_cast<double>(rows()); }
   /// Where Y may differ from zero, ascending.
   const std::vector<int>& positions() const { return positions_; }
   /// Y there: positions × rows.
@@ -25,8 +26,9 @@ class ReachedSweep {
  private:
   const cholmod_factor_struct& factor_;
   const SparseRows& rows_;
-  std::vector<int> supernodes_, positions_, place_;  ///< reached, ascending; place_: of a position among them, or -1
-  double entries_ = 0;                               ///< of L, in their columns
+  std::vector<int> supernodes_, positions_;  ///< reached, ascending
+  std::vector<int> place_;                   ///< of a position among positions_, or -1
+  double entries_ = 0;                       ///< of L, in the columns that are reached
 };
 
 }  // namespace dotyk::algebra

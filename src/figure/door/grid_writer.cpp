@@ -150,9 +150,12 @@ void render(const GridFile& file) {
   const std::filesystem::path place(file.file);
   if (place.extension() != ".pvtu") return write_cells(file);
   constexpr std::size_t kMillion = 1000000;
-  std::size_t cells = 0;
-  for (const GridBody& body : file.bodies) cells += cells_of(body);
-  const std::size_t asked = file.pieces > 0 ? file.pieces : (cells + kMillion - 1) / kMillion, pieces = std::clamp<std::size_t>(asked, 1, std::max<std::size_t>(1, cells));
+  std::size_t cells = 0, most_pieces = 1;  // none is to be empty
+  for (const GridBody& body : file.bodies) {
+    cells += cells_of(body);
+    most_pieces = std::max(most_pieces, cells_of(body));
+  }
+  const std::size_t asked = file.pieces > 0 ? file.pieces : (cells + kMillion - 1) / kMillion, pieces = std::clamp<std::size_t>(asked, 1, most_pieces);
   std::filesystem::remove(place_to_write(file.file));
   std::vector<std::string> names;
   for (std::size_t k = 0; k < pieces; ++k) {

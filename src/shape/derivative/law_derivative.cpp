@@ -17,8 +17,6 @@ using problem::Law;
 using problem::Problem;
 using problem::RowGroup;
 
-std::string place(const Problem& problem, int row) { return problem.row_name ? problem.row_name(row) : text("row ", row + 1); }
-
 /// What is nothing, row by row; and what were nothing but for the multipliers' errors.
 struct Nothing {
   Vector force, gap, exact_force;
@@ -88,7 +86,7 @@ class Branches {
     const bool at_low = lambda_[r] - low <= nothing_.force[r], at_high = high - lambda_[r] <= nothing_.force[r];
     if (!at_low && !at_high) {
       if (springs.below != springs.above && std::abs(lambda_[r]) <= nothing_.force[r])
-        throw InputError(text(group.name, ": the ", law.name(), " law of ", place(problem_, r),
+        throw InputError(text(group.name, ": the ", law.name(), " law of ", problem_.name_of(r),
                               " bears nothing and changes its stiffness there; the solution has no derivative"));
       unknown_[r] = add(r, 1, lambda_[r] < 0 ? springs.below : springs.above);
       return;
@@ -106,7 +104,7 @@ class Branches {
   void require_precise(int r, double force, double gap) const {
     const double ratio = nothing_.exact_force[r] / nothing_.force[r];
     if (force <= nothing_.exact_force[r] && gap <= ratio * nothing_.gap[r]) return;
-    throw InputError(text("the solution is not precise enough to tell whether ", place(problem_, r), " presses: force ", force, ", multipliers are wrong by up to ",
+    throw InputError(text("the solution is not precise enough to tell whether ", problem_.name_of(r), " presses: force ", force, ", multipliers are wrong by up to ",
                           nothing_.force[r], "; solve with a smaller tol, or by pdas or newton"));
   }
 
@@ -116,20 +114,20 @@ class Branches {
     const Vector lambda = lambda_.segment(r, m), slip = x_.segment(r, m);
     const double force = nothing_.force.segment(r, m).maxCoeff(), gap = nothing_.gap.segment(r, m).maxCoeff();
     if (slope > 0 && weak_[n])
-      throw InputError(text(group.name, ": ", place(problem_, r), " touches without force, where its friction begins; the solution "
+      throw InputError(text(group.name, ": ", problem_.name_of(r), " touches without force, where its friction begins; the solution "
                             "has no derivative with Coulomb friction there"));
     if (slope > 0 && (unknown_[n] < 0 || lambda_[n] < -nothing_.force[n])) return;  // open, or pulled: no friction
     if (slope > 0 && lambda_[n] <= nothing_.force[n])
-      throw InputError(text(group.name, ": ", place(problem_, r), " bears nothing, where its friction begins; the solution has no derivative with Coulomb friction there"));
+      throw InputError(text(group.name, ": ", problem_.name_of(r), " bears nothing, where its friction begins; the solution has no derivative with Coulomb friction there"));
     if (lambda.norm() < bound - force) {
       for (int i = 0; i < m; ++i) add(r + i, 1, Law::kUnbounded);
       return;
     }
     if (slip.norm() <= gap && slip.norm() > gap * nothing_.exact_force[r] / nothing_.force[r])
-      throw InputError(text("the solution is not precise enough to tell whether ", place(problem_, r), " slips: slip ", slip.norm(),
+      throw InputError(text("the solution is not precise enough to tell whether ", problem_.name_of(r), " slips: slip ", slip.norm(),
                             "; solve with a smaller tol, or by newton"));
     if (slip.norm() <= gap)
-      throw InputError(text(group.name, ": ", place(problem_, r), " bears all its friction bound ", bound, " and does not slip: "
+      throw InputError(text(group.name, ": ", problem_.name_of(r), " bears all its friction bound ", bound, " and does not slip: "
                             "to one side it sticks, to the other it slips; the solution has no derivative there"));
     slips(r, slip, bound);
     if (slope == 0) {

@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
+#include "algebra/krylov/conjugate_residuals.hpp"
 #include "base/text.hpp"
 #include "solver/active/held_stiffness.hpp"
 #include "solver/active/step.hpp"
@@ -12,8 +14,7 @@ namespace {
 
 using algebra::SparseRows;
 using algebra::Vector;
-using problem::Problem;
-using problem::LongVector;
+using problem::LongVector, problem::Problem;
 
 /// Spring of a rigid row that holds no unknown, in units of the stiffness that it sees: most of its force then comes with the first solution, while rounding
 /// of displacements, times the spring, stays small in it.
@@ -29,28 +30,22 @@ constexpr double kOff = 1e-12, kAim = 1e-15;
 /// of the method. With friction, whose steps converge as Newton's method does, a step goes to kOfOff times the last violation of the laws, relative to the forces
 /// of the rows, but at least to kSharper: rougher steps became more numerous where stiffnesses differ by a factor of 100.
 constexpr double kUnbalanced = 1e-12, kOfTolerance = 0.01, kSharper = 1e-3, kRough = 0.03, kOfOff = 0.01;
-/// The most refinements of one step.
-constexpr int kMostRefinements = 6;
-constexpr double kShare = 0.3;  ///< of that, what a refinement goes to
-/// Above this tolerance residuals are computed in double precision.
-constexpr double kRounding = 1e-6;
-/// Generalised conjugate residuals: how many directions, how many are kept, how exactly each is solved for, and what of a residual's change is rounding.
-constexpr int kMostDirections = 60;
-constexpr std::size_t kKeptDirections = 20;
-constexpr double kShareOfDirection = 0.1, kCancelled = 1e-24;
+constexpr int kMostRefinements = 6;        ///< of one step
+constexpr double kShare = 0.3;             ///< of what refinement aims at, what one goes to
+constexpr double kRounding = 1e-6;         ///< above this tolerance residuals are computed in double precision
+constexpr double kShareOfDirection = 0.1;  ///< how exactly directions of conjugate residuals are solved for
 
 class HeldStep final : public Step {
  public:
   HeldStep(const Problem& problem, HeldStiffness& stiffness, const Vector& rho, double tol)
       : problem_(problem), stiffness_(stiffness), rho_(rho), least_(std::max(kUnbalanced, stiffness.solver().iterates() ? kOfTolerance * tol : 0)), own_(problem.row_stiffness()), trivial_(stiffness.basis().trivial()),
         T_(trivial_ ? LongMatrix() : LongMatrix(stiffness.basis().T.cast<long double>())),
-        f_(problem.unknowns()), u_(LongVector::Zero(problem.unknowns())), before_(u_) {
-    for (const problem::Block& block : problem.blocks) f_.segment(block.first, block.size()) = block.f;
+        f_(problem.load()), u_(LongVector::Zero(problem.unknowns())), before_(u_) {
     for (const problem::FrictionGroup& group : problem.friction)
       for (int r = group.first; r < group.row(group.points()); ++r)
         if (stiffness.basis().unknown[r] < 0)
-          throw NotSolved(text("pdas on all unknowns cannot treat the ", group.law->name(), " of the ", group.name, " at ",
-                               problem.row_name ? problem.row_name(r) : text("row ", r + 1), ": other rows have taken the unknowns there, as at corners; newton can"));
+          throw NotSolved(text("pdas on all unknowns cannot treat the ", group.law->name(), " of the ", group.name, " at ", problem.name_of(r),
+                               ": other rows have taken the unknowns there, as at corners; newton can"));
   }
 
   bool solve(const Linearisation& l, Vector& lambda, Vector& x) override {
@@ -77,9 +72,7 @@ class HeldStep final : public Step {
     refine();
     return u_.allFinite() && tell(lambda, x);
   }
-
   void go_back(double part) override { u_ = before_ + static_cast<long double>(part) * (u_ - before_), forget(); }
-
   Vector recover() override { return u_.cast<double>(); }
 
  private:
@@ -151,14 +144,8 @@ class HeldStep final : public Step {
     across_.clear();
     for (Linearisation::Slip& s : slips_) {
       s.across = std::min(s.across, kMostAcross * own_[s.row]);
-      for (int i = 0; i < s.components; ++i) {
-        const int own = stiffness_.basis().unknown[s.row + i];
-        target_[s.row + i] = problem_.c[s.row + i];
-        for (int j = 0; j <= i && s.components > 1; ++j) {
-          const int other = stiffness_.basis().unknown[s.row + j];
-          across_.emplace_back(std::max(own, other), std::min(own, other), s.across * ((i == j) - s.along[i] * s.along[j]));
-        }
-      }
+      target_.segment(s.row, s.components) = problem_.c.segment(s.row, s.components);
+      s.add_stiffness(stiffness_.basis().unknown, across_);
     }
   }
 
@@ -166,15 +153,10 @@ class HeldStep final : public Step {
   Vector beyond(const Linearisation::Slip& s, const Vector& left) const {
     Vector slip(s.components);
     for (int i = 0; i < s.components; ++i) slip[i] = static_cast<double>(gap(s.row + i));
-    return beyond(s, slip, s.by_normal > 0 ? multiplier(s.normal, left) - s.pressed : 0);
-  }
-  Vector beyond(const Linearisation::Slip& s, const Vector& slip, double pressed_more) const {
-    Vector force = s.components > 1 ? Vector(s.across * (slip - s.along * s.along.dot(slip))) : Vector::Zero(1);
-    return force + s.along * s.by_normal * pressed_more;
+    return s.beyond(slip, s.by_normal > 0 ? multiplier(s.normal, left) - s.pressed : 0);
   }
 
-  /// Of a scalar row.
-  double multiplier(int row, const Vector& left) const {
+  double multiplier(int row, const Vector& left) const {  // of a scalar row
     const int own = stiffness_.basis().unknown[row];
     return own >= 0 && held_[own] ? left[own] : static_cast<double>(lambda_[row] + spring_[row] * gap(row));
   }
@@ -192,38 +174,18 @@ class HeldStep final : public Step {
     }
   }
 
-  /// Where bounds follow the pressure the equations are not symmetric: generalised conjugate residuals (Eisenstat, Elman and Schultz, SIAM J. Numer.
-  /// Anal. 20 (1983)), preconditioned by the matrix with bounds as they are, begun anew after some.
+  /// Where bounds follow the pressure the equations are not symmetric; the preconditioner is the matrix with bounds as they are.
   void refine_slipping() {
-    struct Direction {
-      Vector u, change;  ///< change: of the residual
-    };
-    std::vector<Direction> directions;
-    Vector total = Vector::Zero(u_.size()), left;
-    double enough = 0;
-    const auto arrive = [&] {
-      if (!directions.empty()) move(total), total.setZero(), directions.clear();
-      left = residual(), enough = unbalanced_ * gross_;
-      return left.lpNorm<1>() <= enough;
-    };
-    if (arrive()) return;
-    for (int k = 0; k < kMostDirections && left.allFinite(); ++k) {
-      if ((left.lpNorm<1>() <= enough || directions.size() == kKeptDirections) && arrive()) return;
-      HeldStiffness::Displaced by = stiffness_.solve_in_basis(left, kShareOfDirection);
-      Vector change = response(by);
-      Direction d{std::move(by.u), std::move(change)};
-      const double whole = d.change.squaredNorm();
-      for (const Direction& old : directions) {
-        const double share = d.change.dot(old.change) / old.change.squaredNorm();
-        d.u -= share * old.u, d.change -= share * old.change;
-      }
-      const double size = d.change.squaredNorm();
-      if (!(size > kCancelled * whole)) break;
-      const double step = left.dot(d.change) / size;
-      total += step * d.u, left -= step * d.change;
-      directions.push_back(std::move(d));
-    }
-    if (!directions.empty()) move(total);
+    algebra::conjugate_residuals(
+        [&](const std::optional<Vector>& by) -> algebra::Remainder {
+          if (by) move(*by);
+          return {residual(), unbalanced_ * gross_};
+        },
+        [&](const Vector& left) -> algebra::ResidualDirection {
+          HeldStiffness::Displaced by = stiffness_.solve_in_basis(left, kShareOfDirection);
+          Vector change = response(by);
+          return {std::move(by.u), std::move(change)};
+        });
   }
 
   /// f − Ku − Bᵀλ with the springs' multipliers as they are, zero where u is held.
@@ -243,7 +205,7 @@ class HeldStep final : public Step {
     for (const Linearisation::Slip& s : slips_) {
       const int own = s.by_normal > 0 ? stiffness_.basis().unknown[s.normal] : -1;
       const double pressed = s.by_normal > 0 ? (own >= 0 && held_[own] ? -before[own] : spring_[s.normal] * moved[s.normal]) : 0;
-      const Vector force = beyond(s, moved.segment(s.row, s.components), pressed);
+      const Vector force = s.beyond(moved.segment(s.row, s.components), pressed);
       for (int i = 0; i < s.components; ++i) lost[stiffness_.basis().unknown[s.row + i]] += force[i];
     }
     for (const Holding& h : holding_) lost[h.unknown] = 0;
@@ -283,8 +245,7 @@ class HeldStep final : public Step {
   /// f − Ku by a product, which is remembered as elastic_.
   LongVector elastic_anew(Known how) {
     LongVector all = f_.cast<long double>();
-    if (how == Known::precisely) all -= problem::precise_stiffness_times(problem_, u_);
-    else all -= problem::rough_stiffness_times(problem_, u_.cast<double>()).cast<long double>();
+    all -= how == Known::precisely ? problem::precise_stiffness_times(problem_, u_) : LongVector(problem::rough_stiffness_times(problem_, u_.cast<double>()).cast<long double>());
     elastic_ = in_basis(all), elastic_known_ = how;
     return all;
   }
@@ -298,28 +259,24 @@ class HeldStep final : public Step {
 
   /// λ of tied rows so that Bu = t there. False where they contradict each other.
   bool tie() {
-    for (int round = 0; round < kMostRounds && off(tied_gap()) > kAim && u_.allFinite(); ++round) {
-      approach_ties();
-      move(stiffness_.solve_in_basis(residual()).u);
-    }
+    for (int round = 0; round < kMostRounds && off(tied_gap()) > kAim && u_.allFinite(); ++round)
+      approach_ties(), move(stiffness_.solve_in_basis(residual()).u);
     return off(tied_gap()) <= kOff;
   }
 
   /// Conjugate gradients on B(K + sBᵀB)⁻¹Bᵀ δλ = Bu − t, preconditioned by s, which makes the first step one of the method of multipliers.
   void approach_ties() {
-    Vector gap = tied_gap(), z = spring_.cwiseProduct(gap), p = z;
-    double energy = gap.dot(z);
+    Vector gap = tied_gap(), p = spring_.cwiseProduct(gap);
+    double energy = gap.dot(p);
     for (int k = 0; k < kMostSteps && off(gap) > kAim; ++k) {
       const Vector moved = stiffness_.solve(problem_.B.transpose() * p);
       Vector q = Vector::Zero(p.size());
       q(tied_) = Vector(problem_.B * moved)(tied_);
-      const double curvature = p.dot(q);
-      if (!(curvature > 0)) return;
-      const double t = energy / curvature;
+      if (!(p.dot(q) > 0)) return;
+      const double t = energy / p.dot(q);
       lambda_ += t * p, move(-t * moved), gap -= t * q;
-      z = spring_.cwiseProduct(gap);
-      const double before = std::exchange(energy, gap.dot(z));
-      p = z + energy / before * p;
+      const double before = std::exchange(energy, gap.dot(spring_.cwiseProduct(gap)));
+      p = spring_.cwiseProduct(gap) + energy / before * p;
     }
   }
 
@@ -369,7 +326,7 @@ class HeldStep final : public Step {
   std::vector<char> held_;
   std::vector<Holding> holding_;
   std::vector<Linearisation::Slip> slips_;
-  std::vector<Eigen::Triplet<double>> across_;
+  algebra::Triplets across_;
   std::vector<int> tied_;              ///< rigid rows that hold no unknown
   bool sprung_ = false;                ///< do springs hold rows that have no unknown of their own?
   LongVector u_, before_;                       ///< of more digits than the factor's solutions have: see precise_stiffness_times()

@@ -32,8 +32,7 @@ struct LawsInUnits {
   void measure(const Problem& problem, const problem::RigidMotions& rigid, HeldStiffness& stiffness);
 };
 
-LawsInUnits::LawsInUnits(const Problem& problem, const problem::RigidMotions& rigid, HeldStiffness& stiffness) : f(problem.unknowns()) {
-  for (const problem::Block& block : problem.blocks) f.segment(block.first, block.size()) = block.f;
+LawsInUnits::LawsInUnits(const Problem& problem, const problem::RigidMotions& rigid, HeldStiffness& stiffness) : f(problem.load()) {
   low = high = below = above = Vector::Zero(problem.rows());
   const auto compliance = [](double stiffness) { return stiffness > 0 ? 1 / stiffness : 0; };
   for (const auto& [law, k, r] : problem.scalar_rows()) {

@@ -59,6 +59,19 @@ std::vector<char> first_active(const Problem& problem, const std::vector<char>& 
   return active;
 }
 
+Vector Linearisation::Slip::beyond(const Vector& slip, double pressed_more) const {
+  const Vector force = components > 1 ? Vector(across * (slip - along * along.dot(slip))) : Vector::Zero(1);
+  return force + along * by_normal * pressed_more;
+}
+
+void Linearisation::Slip::add_stiffness(const std::vector<int>& unknown_of_row, algebra::Triplets& entries) const {
+  for (int i = 0; i < components && components > 1; ++i)
+    for (int j = 0; j <= i; ++j) {
+      const auto [column, place] = std::minmax(unknown_of_row[row + i], unknown_of_row[row + j]);
+      entries.emplace_back(place, column, across * ((i == j) - along[i] * along[j]));
+    }
+}
+
 bool Linearisation::same_piece(const Linearisation& other, int row) const {
   if (slipping[row] || other.slipping[row]) return slipping[row] == other.slipping[row];
   return slope[row] == other.slope[row] && (slope[row] != 0 || value[row] == other.value[row]);

@@ -19,6 +19,11 @@ struct Linearisation {
     Eigen::VectorXd along;        ///< e
     double by_normal, pressed;    ///< b', and the λ_n of P(y)
     double across;                ///< k
+
+    /// What the force has beyond P(y), at a slip x' and a normal multiplier greater by `pressed_more` than that of P(y).
+    algebra::Vector beyond(const algebra::Vector& slip, double pressed_more) const;
+    /// k (1 − e eᵀ), at the unknowns that the point's rows hold: its lower triangle is added.
+    void add_stiffness(const std::vector<int>& unknown_of_row, algebra::Triplets& entries) const;
   };
   explicit Linearisation(int rows = 0)
       : y(algebra::Vector::Zero(rows)), value(y), slope(y), active(rows, 0), slipping(rows, 0) {}

@@ -291,7 +291,7 @@ void SetIteration::record(const Linearisation& next) {
 std::string SetIteration::places() const {
   std::string out;
   for (std::size_t k = 0; k < changed_.size() && k < 4; ++k)
-    out += (k ? ", " : "") + (problem.row_name ? problem.row_name(changed_[k]) : text("row ", changed_[k] + 1));
+    out += (k ? ", " : "") + problem.name_of(changed_[k]);
   if (changed_.size() > 4) out += text(" and ", changed_.size() - 4, " more");
   return out;
 }

@@ -72,10 +72,10 @@ Problem RowSubset::restricted() const {
   return out;
 }
 
-std::vector<int> RowSubset::places(const std::vector<char>& smaller) const {
+std::vector<int> RowSubset::places(const std::vector<char>& part) const {
   std::vector<int> out;
   for (int k = 0; k < count(); ++k)
-    if (smaller[rows_[k]]) out.push_back(k);
+    if (part[rows_[k]]) out.push_back(k);
   return out;
 }
 

@@ -14,8 +14,8 @@ class RowSubset {
   bool all() const { return rows_.size() == kept_.size(); }
   int count() const { return static_cast<int>(rows_.size()); }
   const std::vector<char>& kept() const { return kept_; }  ///< by row
-  /// Where rows of a smaller subset stand in restricted().
-  std::vector<int> places(const std::vector<char>& smaller) const;
+  /// Where the rows of a part of this subset stand in restricted().
+  std::vector<int> places(const std::vector<char>& part) const;
   problem::Problem restricted() const;
   std::vector<char> restricted(const std::vector<char>& flags) const;
   problem::State restricted(const problem::State& state) const;

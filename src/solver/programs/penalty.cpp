@@ -52,11 +52,10 @@ Problem softened(const Problem& problem, const Vector& p) {
 class SpringStep final : public Step {
  public:
   SpringStep(const Problem& problem, const problem::RigidMotions& rigid, algebra::Ordering ordering)
-      : problem_(problem), k_(problem.rows()), unnoticed_(problem::unnoticed_displacements(problem, rigid)), f_(problem.unknowns()),
+      : problem_(problem), k_(problem.rows()), unnoticed_(problem::unnoticed_displacements(problem, rigid)), f_(problem.load()),
         cholesky_(matrix(Vector::Ones(problem.rows())), problem::nodes(problem), {}, ordering) {
     for (const RowGroup& group : problem.groups)
       for (int r = group.first; r < group.first + group.count; ++r) k_[r] = group.law->springs(r - group.first).value().above;
-    for (const problem::Block& block : problem.blocks) f_.segment(block.first, block.size()) = block.f;
   }
 
   bool solve(const Linearisation& l, Vector& lambda, Vector& x) override {

@@ -176,7 +176,7 @@ void bind_plate_solution(Library& library) {
        .help = "Writes the solution for ParaView and returns the file's name: the plate at rest, with displacement (along z), moment and, where there "
                "is an obstacle, obstacle_force at the nodes.",
        .example = "s:write \"a.vtu\"",
-       .arguments = {key::file("file", "where to; ends in .vtu, its folder must exist").written().required()},
+       .arguments = {key::file("file", "where to; ends in .vtu or .pvtu, its folder must exist").written().required()},
        .run = [](Call& call) {
          figure::write(figure::compose_grid(*call.self<PlateSolution>(), call.text("file")));
          return call.text("file");
