@@ -177,6 +177,61 @@ TEST_CASE("rows that would take longer to add than to factor again are not added
   CHECK_FALSE(without.extend(unfelt, problem::rigid_motions(unfelt), {0}, clock, quiet));
 }
 
+TEST_CASE("a free body's rows that are far from the first ones beside their size are not added") {
+  // A row of nodes with an unknown each, whose rigid motions are a translation and a slope.
+  Random random(49);
+  constexpr int n = 400;
+  algebra::Triplets entries;
+  DenseMatrix R(n, 2);
+  for (int i = 0; i < n; ++i) R.row(i) << 1, i / double(n);
+  for (int i = 1; i + 1 < n; ++i) {  // (u_{i−1} − 2u_i + u_{i+1})², for many i
+    const double second[] = {1, -2, 1}, k = random.between(1, 2);
+    for (int a = 0; a < 3; ++a)
+      for (int b = 0; b <= a; ++b) entries.emplace_back(i - 1 + a, i - 1 + b, k * second[a] * second[b]);
+  }
+  Problem p;
+  Block block;
+  block.name = "beam", block.K = algebra::from_triplets(n, n, entries), block.f = Vector::Zero(n), block.kernel = R;
+  for (int i = 0; i < n; ++i) block.node.push_back(i);
+  add(p, block);
+  for (const auto& [far, added] : {std::pair{205, true}, std::pair{390, false}}) {
+    DenseMatrix B = DenseMatrix::Zero(5, n);
+    for (int r = 0; r < 4; ++r) B(r, 199 + r) = 1;
+    B(4, far) = 1;
+    Problem all = p;
+    all.B = test::rows(B), all.c = Vector::Zero(5);
+    const Problem begun = with_rows(all, {0, 1, 2, 3});
+    const algebra::Condensation condensation(block.K, block.node, {199, 200, 201, 202}, R);
+    CHECK(condensation.are_far(algebra::pick_rows(all.B, {4}), R) == !added);
+    Clock clock;
+    Monitor quiet;
+    CondensedProblem condensed(begun, problem::rigid_motions(begun), Ordering::automatic, clock, quiet);
+    if (!added) CHECK_FALSE(condensed.extend(all, problem::rigid_motions(all), {0, 1, 2, 3}, clock, quiet));
+  }
+}
+
+TEST_CASE("a condenser whose problem has grown adds the rows or condenses anew") {
+  Random random(50);
+  Problem p;
+  add(p, test::block("a", test::spring_grid(random, 30, 20, 2, 0.2), random.vector(1200), 2, false));
+  p.B = test::rows(random_rows(random, p, 8));
+  p.c = random.vector(8);
+  Clock clock;
+  Monitor quiet;
+  const auto condensed = [&](Condenser& condenser, const Problem& problem) -> const CondensedProblem& {
+    return condenser.condense(problem, problem::rigid_motions(problem), Ordering::automatic, clock, quiet);
+  };
+  Condenser condenser, other;
+  condensed(condenser, with_rows(p, {1, 3, 5}));
+  CHECK_THROWS_WITH_AS(condensed(condenser, p), doctest::Contains("condensed before with 1200 unknowns and 3 rows"), InputError);
+  condenser.grow({1, 3, 5});
+  const DenseMatrix grown = condensed(condenser, p).W();
+  condensed(other, with_rows(p, {1, 3}));
+  other.grow({1, 3, 5});  // of another problem than the one before
+  CHECK(test::relative(grown, condensed(other, p).W()) < 1e-11);
+  CHECK_THROWS_AS(condensed(condenser, with_rows(p, {1, 3, 5})), InputError);
+}
+
 TEST_CASE("a block that no row touches is solved along") {
   Random random(43);
   Problem p;
