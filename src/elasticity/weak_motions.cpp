@@ -89,11 +89,15 @@ struct Motions {
   auto rigid() const { return F.leftCols(frame.count()); }
   auto dilatation() const { return F.col(frame.count()); }
 
-  /// u less its M-orthogonal projection onto the kernel.
-  DenseMatrix without(const DenseMatrix& kernel, const DenseMatrix& u) const {
-    if (kernel.cols() == 0) return u;
+  /// The coefficients of the M-orthogonal projection of u onto the kernel.
+  template <class Displacements>
+  DenseMatrix in_kernel(const DenseMatrix& kernel, const Displacements& u) const {
     const DenseMatrix weighted = w.asDiagonal() * kernel;
-    return u - kernel * algebra::Ldlt(weighted.transpose() * kernel).solve(DenseMatrix(weighted.transpose() * u));
+    return algebra::Ldlt(weighted.transpose() * kernel).solve(DenseMatrix(weighted.transpose() * u));
+  }
+  /// u less that projection.
+  DenseMatrix without(const DenseMatrix& kernel, const DenseMatrix& u) const {
+    return kernel.cols() == 0 ? u : DenseMatrix(u - kernel * in_kernel(kernel, u));
   }
 
   /// The coefficients of rigid motions given on the unknowns.
@@ -177,10 +181,7 @@ WeakMotions weak_motions(const mesh::Mesh& mesh, const Numbering& numbering, con
   const Motions motions(mesh, numbering);
   const Vector& w = motions.w;
   DenseMatrix gram = motions.rigid().transpose() * w.asDiagonal() * motions.rigid();
-  if (kernel.cols() > 0) {
-    const DenseMatrix weighted = w.asDiagonal() * kernel, common = weighted.transpose() * motions.rigid();
-    gram -= common.transpose() * algebra::Ldlt(weighted.transpose() * kernel).solve(common);
-  }
+  if (kernel.cols() > 0) gram -= DenseMatrix(motions.rigid().transpose() * w.asDiagonal() * kernel) * motions.in_kernel(kernel, motions.rigid());
   const DenseMatrix T = orthonormal_combinations(gram, 1e-12);  // less what is in the kernel, or nothing on these unknowns
   if (T.cols() == 0) return {};
   const DenseMatrix E = all == 3 ? energies<4>(lower, motions.F) : energies<7>(lower, motions.F);

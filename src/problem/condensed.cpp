@@ -168,6 +168,7 @@ bool CondensedProblem::extend(const Problem& grown, const RigidMotions& rigid, c
   };
   std::vector<Rows> rows(parts_.size());
   std::vector<algebra::ReachedSweep> sweeps;
+  std::vector<int> block;  // of each sweep
   std::vector<double> flops;
   double again = 0, sum = 0, bytes = dense_bytes(m);
   for (std::size_t b = 0; b < parts_.size(); ++b) {
@@ -179,14 +180,12 @@ bool CondensedProblem::extend(const Problem& grown, const RigidMotions& rigid, c
     if (condensation.are_far(rows[b].further, grown.blocks[b].kernel)) return false;
     again += condensation.cholesky().flops();
     if (rows[b].number.empty()) continue;
+    block.push_back(static_cast<int>(b));
     sweeps.push_back(condensation.cholesky().sweep(rows[b].further));
     flops.push_back(sweeps.back().flops());
     sum += flops.back(), bytes += 2 * sweeps.back().bytes();
   }
   if (sum > kFaster * again || bytes > available_memory()) return false;
-  std::vector<int> block;  // of each sweep
-  for (std::size_t b = 0; b < parts_.size(); ++b)
-    if (!rows[b].number.empty()) block.push_back(static_cast<int>(b));
   std::vector<algebra::Condensation::Further> found(block.size());
   const auto phase = [&](int k, int) { return text("condensing '", grown.blocks[block[k]].name, "' onto ", sweeps[k].rows(), " further rows"); };
   algebra::factor_in_threads(flops, phase, monitor, [&](int k) { found[k] = parts_[block[k]].condensation.further(sweeps[k]); });

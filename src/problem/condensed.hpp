@@ -53,9 +53,9 @@ class CondensedProblem {
                    Clock& clock, Monitor& monitor);
   /// Takes another f and c, of a problem with the same K and B; `rigid` are its motions. What was factored stays.
   void set_load(const Problem& problem, const RigidMotions& rigid);
-  /// Takes further rows by sweeps with the factors that are there: row k becomes row place[k] of `grown`, which has the same K; `rigid` are its motions.
-  /// All rows but the first problem's are swept, each time. False, with nothing changed, where factoring again is less work or takes less memory, or where
-  /// rigid motions move a further row much further than the first problem's (Condensation::are_far()).
+  /// Adds rows by forward sweeps with the present factors. `grown` has the same K; its row place[k] is row k of this problem; `rigid` are its rigid motions.
+  /// Each call sweeps all rows but those of the constructor. Returns false, and changes nothing, if factoring again is less work, if memory is short, or if
+  /// digits would be lost (Condensation::are_far()).
   bool extend(const Problem& grown, const RigidMotions& rigid, const std::vector<int>& place, Clock& clock, Monitor& monitor);
   /// Given as it is: W (rows × rows, positive semidefinite; symmetric, but that methods which need it say so) and
   /// x₀, no rigid motions, and no displacements to recover.
@@ -77,8 +77,7 @@ class CondensedProblem {
   const algebra::Vector& e() const { return e_; }
 
   algebra::Vector jump(const algebra::Vector& lambda, const algebra::Vector& alpha) const;
-  /// All unknowns, from the multipliers and the amounts of rigid motion: one backward sweep a block, and a forward one before it once rows were taken
-  /// later.
+  /// All unknowns, from the multipliers and the amounts of rigid motion: one backward sweep a block; after extend() a forward sweep as well.
   algebra::Vector recover(const algebra::Vector& lambda, const algebra::Vector& alpha) const;
 
   /// The displacement K⁻¹f + Rα under other forces f (unknowns), by a generalised inverse for free blocks, with amounts α of rigid motions.
@@ -90,9 +89,8 @@ class CondensedProblem {
  private:
   struct Part : CondensedBlock {
     int first_mode;
-    // Once rows were taken later, which may act off Γ; else no rows.
-    algebra::SparseRows all_rows = {};  ///< B on the block's unknowns
-    algebra::Vector f = {};
+    algebra::SparseRows all_rows = {};  ///< B on all unknowns of the block, set by extend(): added rows may act off Γ
+    algebra::Vector f = {};             ///< the load, set with all_rows
   };
   void add(CondensedBlock block);
   void set_motions(const Problem& problem, const RigidMotions& rigid);
@@ -101,7 +99,7 @@ class CondensedProblem {
   algebra::Vector together(const algebra::Vector& alpha, const Of& of) const;
 
   std::vector<Part> parts_;
-  std::vector<int> first_rows_;  ///< those that Γ was made for; rows taken later are others
+  std::vector<int> first_rows_;  ///< those of the constructor, which Γ was made for
   algebra::DenseMatrix W_, N_;
   algebra::Vector x0_, e_;
   algebra::SparseMatrix noticed_;    ///< basis of the motions that rows notice: modes × kernel_size
@@ -109,14 +107,14 @@ class CondensedProblem {
   int unknowns_ = 0, modes_ = 0;
 };
 
-/// Condenses problems that differ in f and c alone, or by further rows: the first is ordered, factored and condensed, the
+/// Condenses problems that differ only in f and c, or that have more rows than the one before. The first is ordered, factored and condensed; the
 /// following take over its factors and W.
 class Condenser {
  public:
-  /// Valid until the next call. Throws InputError for another number of rows or unknowns than the one before had, but after grow().
+  /// The result is valid until the next call. Throws InputError if the number of rows or unknowns has changed without a call of grow().
   const CondensedProblem& condense(const Problem& problem, const RigidMotions& rigid, algebra::Ordering ordering,
                                    Clock& clock, Monitor& monitor);
-  /// The next problem has further rows, and row k of the one before as row place[k].
+  /// Announces a problem with more rows: its row place[k] is row k of the one before.
   void grow(std::vector<int> place) { place_ = std::move(place); }
 
  private:

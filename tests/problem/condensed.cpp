@@ -4,6 +4,7 @@
 #include <sched.h>
 
 #include <Eigen/LU>
+#include <array>
 
 #include "../support/chain.hpp"
 #include "base/error.hpp"
@@ -29,6 +30,30 @@ DenseMatrix random_rows(Random& random, const Problem& p, int count) {
   return B;
 }
 
+/// Two grids of springs, the second one free, and 8 rows between them.
+Problem held_and_free(Random& random, std::array<int, 2> held, std::array<int, 2> free) {
+  Problem p;
+  add(p, test::block("held", test::spring_grid(random, held[0], held[1], 2, 0.2), random.vector(2 * held[0] * held[1]), 2, false));
+  add(p, test::block("free", test::spring_grid(random, free[0], free[1], 2, 0), random.vector(2 * free[0] * free[1]), 2, true));
+  p.B = test::rows(random_rows(random, p, 8));
+  p.c = random.vector(8);
+  return p;
+}
+
+/// Random λ with Nᵀλ = e.
+Vector balanced(Random& random, const CondensedProblem& condensed) {
+  const DenseMatrix N = condensed.N();
+  Vector lambda = random.vector(condensed.rows());
+  return lambda + N * (N.transpose() * N).inverse() * (condensed.e() - N.transpose() * lambda);
+}
+
+/// Are forces balanced in what recover() gives, and are its gaps those of jump()?
+void check_state(const Problem& p, const CondensedProblem& condensed, const Vector& lambda, const Vector& alpha) {
+  const Vector u = condensed.recover(lambda, alpha);
+  CHECK((stiffness_times(p, u) + p.B.transpose() * lambda - p.load()).norm() < 1e-10 * p.load().norm());
+  CHECK((p.B * u - p.c - condensed.jump(lambda, alpha)).norm() < 1e-10 * u.norm());
+}
+
 }  // namespace
 
 TEST_CASE("condensed onto its rows a held problem is B K⁻¹ Bᵀ and the free jump") {
@@ -45,8 +70,8 @@ TEST_CASE("condensed onto its rows a held problem is B K⁻¹ Bᵀ and the free 
     const DenseMatrix K = test::stiffness(p), B = p.B, inverse = K.inverse();
     CHECK(condensed.kernel_size() == 0);
     CHECK(test::relative(condensed.W(), B * inverse * B.transpose()) < 1e-11);
-    CHECK(test::relative(condensed.x0(), B * inverse * test::load(p) - p.c) < 1e-11);
-    const Vector lambda = random.vector(9), u = inverse * (test::load(p) - B.transpose() * lambda);
+    CHECK(test::relative(condensed.x0(), B * inverse * p.load() - p.c) < 1e-11);
+    const Vector lambda = random.vector(9), u = inverse * (p.load() - B.transpose() * lambda);
     CHECK(test::relative(condensed.recover(lambda, Vector()), u) < 1e-11);
     CHECK(test::relative(condensed.jump(lambda, Vector()), B * u - p.c) < 1e-11);
   }
@@ -70,17 +95,11 @@ TEST_CASE("condensed with a kernel: any balanced multipliers and any rigid motio
   DenseMatrix R = DenseMatrix::Zero(p.unknowns(), 4);
   R.block(p.blocks[1].first, 0, 30, 2) = p.blocks[1].kernel;
   R.block(p.blocks[2].first, 2, 18, 2) = p.blocks[2].kernel;
-  const Vector f = test::load(p);
+  const Vector f = p.load();
   CHECK(test::relative(condensed.N(), B * R) < 1e-14);
   CHECK(test::relative(condensed.e(), R.transpose() * f) < 1e-14);
-  // λ with Nᵀλ = e, otherwise at random.
-  const DenseMatrix N = condensed.N();
-  Vector lambda = random.vector(8);
-  lambda += N * (N.transpose() * N).inverse() * (condensed.e() - N.transpose() * lambda);
-  const Vector alpha = random.vector(4), u = condensed.recover(lambda, alpha);
-  const Vector missing = stiffness_times(p, u) + B.transpose() * lambda - f;
-  CHECK(missing.norm() < 1e-10 * f.norm());
-  CHECK((B * u - p.c - condensed.jump(lambda, alpha)).norm() < 1e-10 * u.norm());
+  const Vector lambda = balanced(random, condensed);
+  check_state(p, condensed, lambda, random.vector(4));
 }
 
 namespace {
@@ -122,9 +141,7 @@ TEST_CASE("rows taken later, twice, give what all of them give at once") {
     Problem heavier = p;
     for (Block& block : heavier.blocks) block.f *= 2;
     condensed.set_load(heavier, problem::rigid_motions(heavier));
-    const Vector u = condensed.recover(lambda, none);
-    CHECK((stiffness_times(heavier, u) + p.B.transpose() * lambda - test::load(heavier)).norm() < 1e-10 * test::load(heavier).norm());
-    CHECK((p.B * u - p.c - condensed.jump(lambda, none)).norm() < 1e-10 * u.norm());
+    check_state(heavier, condensed, lambda, none);
     const Vector f = random.vector(p.unknowns());
     CHECK(test::relative(condensed.response(f, none), at_once.response(f, none)) < 1e-11);
   }
@@ -132,23 +149,15 @@ TEST_CASE("rows taken later, twice, give what all of them give at once") {
 
 TEST_CASE("rows taken later of free bodies: equilibrium and jumps") {
   Random random(47);
-  Problem p;
-  add(p, test::block("held", test::spring_grid(random, 30, 20, 2, 0.2), random.vector(1200), 2, false));
-  add(p, test::block("free", test::spring_grid(random, 25, 22, 2, 0), random.vector(1100), 2, true));
-  p.B = test::rows(random_rows(random, p, 8));
-  p.c = random.vector(8);
+  const Problem p = held_and_free(random, {30, 20}, {25, 22});
   Clock clock;
   Monitor quiet;
   const Problem begun = with_rows(p, {0, 2, 3, 5, 6});
   CondensedProblem condensed(begun, problem::rigid_motions(begun), Ordering::automatic, clock, quiet);
   REQUIRE(condensed.extend(p, problem::rigid_motions(p), {0, 2, 3, 5, 6}, clock, quiet));
   REQUIRE(condensed.kernel_size() == 2);
-  const DenseMatrix N = condensed.N();
-  Vector lambda = random.vector(8);
-  lambda += N * (N.transpose() * N).inverse() * (condensed.e() - N.transpose() * lambda);
-  const Vector alpha = random.vector(2), u = condensed.recover(lambda, alpha), f = test::load(p);
-  CHECK((stiffness_times(p, u) + p.B.transpose() * lambda - f).norm() < 1e-10 * f.norm());
-  CHECK((p.B * u - p.c - condensed.jump(lambda, alpha)).norm() < 1e-10 * u.norm());
+  const Vector lambda = balanced(random, condensed);
+  check_state(p, condensed, lambda, random.vector(2));
 }
 
 TEST_CASE("rows that would take longer to add than to factor again are not added, nor where the first felt no motion") {
@@ -244,7 +253,7 @@ TEST_CASE("a block that no row touches is solved along") {
   Clock clock;
   Monitor quiet;
   const CondensedProblem condensed(p, problem::rigid_motions(p), Ordering::automatic, clock, quiet);
-  CHECK(test::relative(condensed.recover(Vector::Zero(1), Vector()), test::stiffness(p).inverse() * test::load(p)) <
+  CHECK(test::relative(condensed.recover(Vector::Zero(1), Vector()), test::stiffness(p).inverse() * p.load()) <
         1e-11);
 }
 
@@ -308,11 +317,7 @@ TEST_CASE("bodies factored side by side give the same bits as one after another"
 
 TEST_CASE("another load on the same factors is what a condensation anew gives") {
   Random random(45);
-  Problem p;
-  add(p, test::block("held", test::spring_grid(random, 4, 4, 2, 0.2), random.vector(32), 2, false));
-  add(p, test::block("free", test::spring_grid(random, 5, 3, 2, 0), random.vector(30), 2, true));
-  p.B = test::rows(random_rows(random, p, 8));
-  p.c = random.vector(8);
+  Problem p = held_and_free(random, {4, 4}, {5, 3});
   Clock clock;
   Monitor quiet;
   Condenser condenser;

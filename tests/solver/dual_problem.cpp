@@ -119,9 +119,9 @@ TEST_CASE("without a kernel K⁺ is the inverse; without subdomains each block i
   const algebra::Ldlt inverse(K);
   const DenseMatrix F = test::as_matrix(5, [&](const Vector& v) { return dual.apply(v); });
   CHECK(test::relative(F, scaled * inverse.solve(DenseMatrix(scaled.transpose()))) < 1e-12);
-  CHECK(test::relative(dual.d(), scaled * inverse.solve(test::load(p)) - dual.scale().cwiseProduct(p.c)) < 1e-12);
+  CHECK(test::relative(dual.d(), scaled * inverse.solve(p.load()) - dual.scale().cwiseProduct(p.c)) < 1e-12);
   const Vector lambda = random.vector(5);
-  CHECK(test::relative(dual.elastic(lambda), inverse.solve(Vector(test::load(p) - scaled.transpose() * lambda))) < 1e-12);
+  CHECK(test::relative(dual.elastic(lambda), inverse.solve(Vector(p.load() - scaled.transpose() * lambda))) < 1e-12);
 }
 
 TEST_CASE("a floating body whose rows leave motions unnoticed still has its projectors") {
@@ -158,7 +158,7 @@ TEST_CASE("blocks that no row touches, held, free or without unknowns") {
   const solver::CoarseSpace coarse(dual.G(), dual.e());
   CHECK(coarse.held().size() == 2);
   const Vector u = solver::average(dual.torn(), dual.elastic(Vector(0)));
-  CHECK((problem::stiffness_times(p, u) - test::load(p)).norm() < 1e-12 * test::load(p).norm());
+  CHECK((problem::stiffness_times(p, u) - p.load()).norm() < 1e-12 * p.load().norm());
   Monitor quiet;
   CHECK(dual.apply(Vector(0)).size() == 0);
   CHECK(solver::PieceStiffness(dual).apply(Vector(0)).size() == 0);

@@ -111,7 +111,7 @@ TEST_CASE("friction with bound zero is no friction") {
   for (int trial = 0; trial < 10; ++trial) {
     const auto p = test::friction_program(random, 4, 1 + trial % 2, problem::tresca(std::vector<double>(4, 0)));
     const int n = p.unknowns();
-    const auto plain = test::program(test::stiffness(p), test::load(p), DenseMatrix(p.B).topRows(4), p.c.head(4));
+    const auto plain = test::program(test::stiffness(p), p.load(), DenseMatrix(p.B).topRows(4), p.c.head(4));
     const auto exact = test::by_enumeration(plain);
     REQUIRE(exact);
     for (const Named& m : methods()) {

@@ -39,10 +39,4 @@ inline algebra::DenseMatrix stiffness(const problem::Problem& p) {
   return K;
 }
 
-inline algebra::Vector load(const problem::Problem& p) {
-  algebra::Vector f(p.unknowns());
-  for (const auto& b : p.blocks) f.segment(b.first, b.size()) = b.f;
-  return f;
-}
-
 }  // namespace dotyk::test

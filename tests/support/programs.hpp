@@ -32,7 +32,7 @@ inline problem::Problem program(const algebra::DenseMatrix& K, const algebra::Ve
 inline std::optional<problem::State> by_enumeration(const problem::Problem& p,
                                                     const std::vector<double>& compliance = {}) {
   const algebra::DenseMatrix K = stiffness(p), B = p.B;
-  const algebra::Vector f = load(p);
+  const algebra::Vector f = p.load();
   const int n = p.unknowns(), m = p.rows();
   const auto groups = p.group_of_rows();
   std::vector<int> unilateral;

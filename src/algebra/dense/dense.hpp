@@ -16,7 +16,7 @@ void solve_lower(const Eigen::Ref<const DenseMatrix>& l, Eigen::Ref<DenseMatrix>
 /// X := L⁻ᵀ X.
 void solve_lower_transposed(const Eigen::Ref<const DenseMatrix>& l, Eigen::Ref<DenseMatrix> x);
 
-/// A B.
+/// The product A B.
 DenseMatrix product(const Eigen::Ref<const DenseMatrix>& a, const Eigen::Ref<const DenseMatrix>& b);
 
 /// XᵀX, both triangles.

@@ -52,9 +52,9 @@ class Cholesky {
   /// The backward sweep: x with Lᵀ P x = y.
   Vector backward(const Vector& swept) const;
 
-  /// The forward sweep of sparse rows B, at the positions that they reach and on Γ. B and this must outlive it.
+  /// The forward sweep L⁻¹ P Bᵀ of sparse rows B, at the positions that B reaches and on Γ. B and this factor must outlive the result.
   ReachedSweep sweep(const SparseRows& rows) const;
-  /// The rows of its values on Γ, in boundary() order.
+  /// The rows of the sweep's values that belong to Γ, in boundary() order.
   DenseMatrix boundary_part(const ReachedSweep& sweep, const DenseMatrix& values) const;
 
   double flops() const;              ///< predicted by the ordering

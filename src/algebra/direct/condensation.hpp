@@ -37,13 +37,15 @@ class Condensation {
   Vector solve(const Vector& b) const;
   /// X = L_Γ⁻¹ Bᵀ for a sparse B (rows × |Γ|, columns in boundary() order), so that XᵀX = B M⁻¹ Bᵀ.
   DenseMatrix half_compliance(const SparseRows& B) const;
-  /// Of rows C on all unknowns, given by their sweep with cholesky(): C K⁻¹ Cᵀ (of a generalised inverse where there is a kernel), and K⁻¹ Cᵀ on Γ.
+  /// What further rows C on all unknowns add to W. K⁻¹ is a generalised inverse if there is a kernel.
   struct Further {
-    DenseMatrix compliance, on_boundary;
+    DenseMatrix compliance;   ///< C K⁻¹ Cᵀ
+    DenseMatrix on_boundary;  ///< K⁻¹ Cᵀ on Γ
   };
+  /// `sweep`: of C, with cholesky().
   Further further(const ReachedSweep& sweep) const;
-  /// Do rigid motions move such rows much further than Γ, to which R̂ belongs? Then the generalised inverse moves them likewise, and digits are lost.
-  /// `kernel`: as it was given.
+  /// Whether rigid motions move such rows much further than they move Γ. Then the rigid part of K⁻¹ Cᵀ is large, and digits are lost when it cancels.
+  /// `kernel`: the one given to the constructor.
   bool are_far(const SparseRows& rows, const DenseMatrix& kernel) const;
   /// The whole u from u_Γ, for the f of the last condense(): one backward sweep.
   Vector recover(const Vector& boundary_values) const;
@@ -61,7 +63,8 @@ class Condensation {
   std::vector<int> pinned_;   ///< unknowns off Γ that hold the motions vanishing on Γ
   DenseMatrix kernel_;        ///< R on Γ
   DenseMatrix basis_;         ///< R̂ = R V
-  DenseMatrix felt_, unfelt_; ///< V; combinations of R that vanish on Γ
+  DenseMatrix felt_;          ///< V
+  DenseMatrix unfelt_;        ///< combinations of R that vanish on Γ
   double tau_ = 0;
   DenseMatrix l_gamma_;       ///< L_Γ, of M
   Vector swept_;

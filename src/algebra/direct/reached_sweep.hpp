@@ -12,7 +12,7 @@ namespace dotyk::algebra {
 /// leads from an unknown of B up to the root (Davis 2006 §3.2): there alone it is made.
 class ReachedSweep {
  public:
-  /// Both must outlive this. `also`: positions in the factor's order that count as reached.
+  /// `factor` and `rows` must outlive this object. `also`: further positions in the factor's order that count as reached.
   ReachedSweep(const cholmod_factor_struct& factor, const SparseRows& rows, const std::vector<int>& also);
 
   Eigen::Index rows() const { return rows_.rows(); }

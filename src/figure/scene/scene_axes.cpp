@@ -1,4 +1,4 @@
-// Axes and their numbers about a scene in the plane, and the directions of axes beside one in space.
+// In the plane: axes with numbers around the scene. In space: a triad that shows the directions of x, y and z.
 #include "figure/scene/scene_axes.hpp"
 
 #include <limits>

@@ -140,8 +140,7 @@ class HeldStep final : public Step {
 
   /// Stiffness across the direction of slip.
   void place(const std::vector<Linearisation::Slip>& slips) {
-    slips_ = slips;
-    across_.clear();
+    slips_ = slips, across_.clear();
     for (Linearisation::Slip& s : slips_) {
       s.across = std::min(s.across, kMostAcross * own_[s.row]);
       target_.segment(s.row, s.components) = problem_.c.segment(s.row, s.components);
@@ -272,11 +271,12 @@ class HeldStep final : public Step {
       const Vector moved = stiffness_.solve(problem_.B.transpose() * p);
       Vector q = Vector::Zero(p.size());
       q(tied_) = Vector(problem_.B * moved)(tied_);
-      if (!(p.dot(q) > 0)) return;
-      const double t = energy / p.dot(q);
+      const double curvature = p.dot(q), t = energy / curvature;
+      if (!(curvature > 0)) return;
       lambda_ += t * p, move(-t * moved), gap -= t * q;
-      const double before = std::exchange(energy, gap.dot(spring_.cwiseProduct(gap)));
-      p = spring_.cwiseProduct(gap) + energy / before * p;
+      const Vector z = spring_.cwiseProduct(gap);
+      const double before = std::exchange(energy, gap.dot(z));
+      p = z + energy / before * p;
     }
   }
 

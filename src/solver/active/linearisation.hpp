@@ -20,9 +20,9 @@ struct Linearisation {
     double by_normal, pressed;    ///< b', and the λ_n of P(y)
     double across;                ///< k
 
-    /// What the force has beyond P(y), at a slip x' and a normal multiplier greater by `pressed_more` than that of P(y).
+    /// The force less P(y), for the slip x' and a normal multiplier that exceeds the one of P(y) by `pressed_more`.
     algebra::Vector beyond(const algebra::Vector& slip, double pressed_more) const;
-    /// k (1 − e eᵀ), at the unknowns that the point's rows hold: its lower triangle is added.
+    /// Adds the lower triangle of k (1 − e eᵀ) at the unknowns that the point's rows hold.
     void add_stiffness(const std::vector<int>& unknown_of_row, algebra::Triplets& entries) const;
   };
   explicit Linearisation(int rows = 0)
