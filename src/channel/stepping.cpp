@@ -1,6 +1,6 @@
 #include "channel/stepping.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <cmath>
 #include <utility>
 #include <vector>

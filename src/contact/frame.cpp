@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include "algebra/dense/decompositions.hpp"
@@ -28,8 +29,7 @@ Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 2> basis(const Point& normal, int
 }
 
 /// f of a symmetric matrix' eigenvalues.
-template <class Function>
-Small of_eigenvalues(const Small& symmetric, const Function& f) {
+Small of_eigenvalues(const Small& symmetric, const std::function<double(double)>& f) {
   const auto [values, V] = algebra::eigenpairs(symmetric);
   return V * values.unaryExpr(f).asDiagonal() * V.transpose();
 }

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "algebra/dense/lu.hpp"
 #include "elasticity/kernel.hpp"
 #include "mesh/submesh.hpp"
 
@@ -31,7 +32,7 @@ Eigen::MatrixXd compliance(const Hooke& h) {
       const auto& [k, l] = kVoigt[component[b]];
       c(a, b) = h.c[i][j][k][l];
     }
-  return c.inverse();
+  return algebra::Lu(c).solve_transposed(Eigen::MatrixXd(Eigen::MatrixXd::Identity(n, n)));  // c is symmetric
 }
 
 /// xx yy xy or xx yy zz yz xz xy.

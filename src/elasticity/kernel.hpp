@@ -128,19 +128,16 @@ void stiffness(const double x[][E::dim], const Hooke& h, double k[][E::nodes][E:
   }
 }
 
-/// Nodal values (node × dimension) of a cell, a row each.
-template <class E>
-Eigen::Matrix<double, E::nodes, E::dim> values_of(const mesh::Mesh& mesh, int cell, const std::vector<double>& nodal) {
-  Eigen::Matrix<double, E::nodes, E::dim> at;
-  for (int a = 0; a < E::nodes; ++a)
-    for (int i = 0; i < E::dim; ++i) at(a, i) = nodal[static_cast<std::size_t>(mesh.cell(cell)[a]) * E::dim + i];
-  return at;
-}
-
-/// Gradients of the shape functions, a row each.
-template <class E>
-auto matrix(const double g[][E::dim]) {
-  return Eigen::Map<const Eigen::Matrix<double, E::nodes, E::dim, Eigen::RowMajor>>(&g[0][0]);
+/// ∂_j of component i of a nodal field (node × dimension) in a cell, where the gradients of its shape functions are g.
+template <int d>
+Eigen::Matrix<double, d, d> gradient_of(const mesh::Mesh& mesh, int cell, const std::vector<double>& nodal, const double g[][d]) {
+  Eigen::Matrix<double, d, d> gradient = Eigen::Matrix<double, d, d>::Zero();
+  for (int a = 0; a < mesh::nodes_of(mesh.element); ++a) {
+    const double* value = nodal.data() + static_cast<std::size_t>(mesh.cell(cell)[a]) * d;
+    for (int i = 0; i < d; ++i)
+      for (int j = 0; j < d; ++j) gradient(i, j) += value[i] * g[a][j];
+  }
+  return gradient;
 }
 
 /// σ_ij = c_ijkl ∂_l u_k.
@@ -154,18 +151,24 @@ Eigen::Matrix<double, d, d> stress_of(const Hooke& h, const Eigen::Matrix<double
   return s;
 }
 
-/// σ at the reference point xi of a cell, and the Jacobian there.
+/// σ in a cell, where the gradients of its shape functions are g.
+template <int d>
+Stress stress_of(const mesh::Mesh& mesh, const Hooke& hooke, const std::vector<double>& u, int cell, const double g[][d]) {
+  const auto sigma = stress_of<d>(hooke, gradient_of<d>(mesh, cell, u, g));
+  Stress s{};
+  for (int v = 0; v < 6; ++v)
+    if (const int i = kVoigt[v][0], j = kVoigt[v][1]; i < d && j < d) s[v] = sigma(i, j);
+  if (d == 2) s[2] = hooke.zz_factor * (s[0] + s[1]);
+  return s;
+}
+
+/// The same at the reference point xi, and the Jacobian there. x: coordinates of the cell's nodes.
 template <class E>
 Stress stress_at(const mesh::Mesh& mesh, const Hooke& hooke, const std::vector<double>& u, int cell,
                  const double x[][E::dim], const std::array<double, E::dim>& xi, double* measure) {
   double g[E::nodes][E::dim];
   *measure = physical_gradient<E>(x, xi, g);
-  const auto sigma = stress_of<E::dim>(hooke, values_of<E>(mesh, cell, u).transpose() * matrix<E>(g));
-  Stress s{};
-  for (int v = 0; v < 6; ++v)
-    if (const int i = kVoigt[v][0], j = kVoigt[v][1]; i < E::dim && j < E::dim) s[v] = sigma(i, j);
-  if (E::dim == 2) s[2] = hooke.zz_factor * (s[0] + s[1]);
-  return s;
+  return stress_of<E::dim>(mesh, hooke, u, cell, g);
 }
 
 }  // namespace dotyk::elasticity

@@ -12,12 +12,6 @@ using mesh::dot;
 using mesh::minus;
 using mesh::times;
 
-/// div V where the gradients of a cell's shape functions are g.
-template <class E>
-double divergence(const Mesh& mesh, int cell, const std::vector<double>& V, const double g[][E::dim]) {
-  return (values_of<E>(mesh, cell, V).transpose() * matrix<E>(g)).trace();
-}
-
 /// d(n ds) / ds at a facet's point; with tangents t_u, t_v there (ṫ_u × t_v + t_u × ṫ_v) / |t_u × t_v|; in the plane t_v = e_z.
 Point area_growth(const Mesh& mesh, Facet facet, const FacetPoint& p, const std::vector<double>& V) {
   const Point first = mesh.point(mesh.facet_node(facet, 0));
@@ -36,6 +30,15 @@ double growth(const Mesh& mesh, Facet facet, const FacetPoint& p, const std::vec
   return dot(p.normal, area_growth(mesh, facet, p, V));
 }
 
+/// σ div V − σ(∇V)ᵀ + c:(−∇u ∇V) in a cell, where the gradients of its shape functions are g.
+template <int d>
+Eigen::Matrix<double, d, d> stress_derivative(const Mesh& mesh, const Hooke& hooke, int cell, const std::vector<double>& u,
+                                              const std::vector<double>& V, const double g[][d]) {
+  const auto grad_u = gradient_of<d>(mesh, cell, u, g), grad_v = gradient_of<d>(mesh, cell, V, g);
+  const auto sigma = stress_of<d>(hooke, grad_u), changed = stress_of<d>(hooke, -grad_u * grad_v);
+  return changed + sigma * grad_v.trace() - sigma * grad_v.transpose();
+}
+
 }  // namespace
 
 /// ∫ ∂φ:σ changes by ∫ ∂φ:(σ div V − σ(∇V)ᵀ + c:(−∇u ∇V)).
@@ -43,19 +46,17 @@ std::vector<double> internal_force_derivative(const Mesh& mesh, const MaterialFi
                                               const std::vector<double>& V) {
   std::vector<double> out(u.size(), 0.0);
   dispatch(mesh.element, [&]<class E>() {
-    using Square = Eigen::Matrix<double, E::dim, E::dim>;
     for_each_cell<E>(mesh, material, [&](int c, const auto& x, const Hooke& hooke) {
-      const auto at_u = values_of<E>(mesh, c, u), at_v = values_of<E>(mesh, c, V);
-      Eigen::Matrix<double, E::nodes, E::dim> force = Eigen::Matrix<double, E::nodes, E::dim>::Zero();
       for (int q = 0; q < E::points; ++q) {
         double g[E::nodes][E::dim];
         const double w = physical_gradient<E>(x, E::point(q), g) * E::weight(q);
-        const Square grad_u = at_u.transpose() * matrix<E>(g), grad_v = at_v.transpose() * matrix<E>(g);  // (i, j): ∂_j of component i
-        const Square sigma = stress_of<E::dim>(hooke, grad_u), changed = stress_of<E::dim>(hooke, -grad_u * grad_v);
-        force += w * matrix<E>(g) * (changed + sigma * grad_v.trace() - sigma * grad_v.transpose()).transpose();
+        const auto s = stress_derivative<E::dim>(mesh, hooke, c, u, V, g);
+        for (int a = 0; a < E::nodes; ++a)
+          for (int i = 0; i < E::dim; ++i) {
+            double& force = out[static_cast<std::size_t>(mesh.cell(c)[a]) * E::dim + i];
+            for (int j = 0; j < E::dim; ++j) force += w * s(i, j) * g[a][j];
+          }
       }
-      for (int a = 0; a < E::nodes; ++a)
-        for (int i = 0; i < E::dim; ++i) out[static_cast<std::size_t>(mesh.cell(c)[a]) * E::dim + i] += force(a, i);
     });
   });
   return out;
@@ -64,7 +65,7 @@ std::vector<double> internal_force_derivative(const Mesh& mesh, const MaterialFi
 void add_body_force_derivative(const Mesh& mesh, const CellField& f, const std::vector<double>& V, std::vector<double>& nodal) {
   dispatch(mesh.element, [&]<class E>() {
     for_each_load_point<E>(mesh, [&](const CellPoint& p, double w, const auto& shape, const auto& g) {
-      const double change = w * divergence<E>(mesh, p.cell, V, g);
+      const double change = w * gradient_of<E::dim>(mesh, p.cell, V, g).trace();
       const Point value = f(p);
       for (int a = 0; a < E::nodes; ++a)
         for (int i = 0; i < E::dim; ++i)
@@ -107,7 +108,7 @@ std::array<double, 4> facet_weights_derivative(const Mesh& mesh, Facet facet, co
 double volume_derivative(const Mesh& mesh, const std::vector<double>& V) {
   double sum = 0;
   dispatch(mesh.element, [&]<class E>() {
-    for_each_load_point<E>(mesh, [&](const CellPoint& p, double w, const auto&, const auto& g) { sum += w * divergence<E>(mesh, p.cell, V, g); });
+    for_each_load_point<E>(mesh, [&](const CellPoint& p, double w, const auto&, const auto& g) { sum += w * gradient_of<E::dim>(mesh, p.cell, V, g).trace(); });
   });
   return sum;
 }

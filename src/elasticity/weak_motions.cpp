@@ -64,12 +64,10 @@ DenseMatrix orthonormal_combinations(const DenseMatrix& gram, double least) {
   return pairs.vectors.rightCols(count) * pairs.values.tail(count).cwiseSqrt().cwiseInverse().asDiagonal();
 }
 
-/// A basis of V's span, orthonormal in M = diag(w), without combinations that M gives less than `least`.
-DenseMatrix orthonormal_in(const Vector& w, const DenseMatrix& V, double least) {
-  return V * orthonormal_combinations(V.transpose() * w.asDiagonal() * V, least);
-}
-
 using ByRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using Displacements = Eigen::Ref<const ByRows, 0, Eigen::OuterStride<>>;  // a motion each column
+
+ByRows combined(const Displacements& V, const DenseMatrix& coefficients) { return V * coefficients; }
 
 /// What the measure is made of, on the unknowns.
 struct Motions {
@@ -87,26 +85,30 @@ struct Motions {
   }
 
   auto rigid() const { return F.leftCols(frame.count()); }
-  auto dilatation() const { return F.col(frame.count()); }
+  auto dilatation() const { return F.rightCols(1); }
 
+  /// UᵀMV.
+  DenseMatrix inner(const Displacements& U, const Displacements& V) const {
+    const ByRows weighted = w.asDiagonal() * V;
+    return U.transpose() * weighted;
+  }
   /// The coefficients of the M-orthogonal projection of u onto the kernel.
-  template <class Displacements>
-  DenseMatrix in_kernel(const DenseMatrix& kernel, const Displacements& u) const {
-    const DenseMatrix weighted = w.asDiagonal() * kernel;
-    return algebra::Ldlt(weighted.transpose() * kernel).solve(DenseMatrix(weighted.transpose() * u));
+  DenseMatrix in_kernel(const Displacements& kernel, const Displacements& u) const {
+    return algebra::Ldlt(inner(kernel, kernel)).solve(inner(kernel, u));
   }
   /// u less that projection.
-  DenseMatrix without(const DenseMatrix& kernel, const DenseMatrix& u) const {
-    return kernel.cols() == 0 ? u : DenseMatrix(u - kernel * in_kernel(kernel, u));
+  ByRows without(const Displacements& kernel, ByRows u) const {
+    if (kernel.cols() > 0) u -= combined(kernel, in_kernel(kernel, u));
+    return u;
   }
 
   /// The coefficients of rigid motions given on the unknowns.
-  DenseMatrix coefficients(const DenseMatrix& motion) const {
+  DenseMatrix coefficients(const Displacements& motion) const {
     const Vector root = w.cwiseSqrt();
     return algebra::MinimumNorm(root.asDiagonal() * rigid()).solve(DenseMatrix(root.asDiagonal() * motion));
   }
 
-  std::vector<Motion> named(const DenseMatrix& motion) const {
+  std::vector<Motion> named(const ByRows& motion) const {
     std::vector<Motion> result;
     const DenseMatrix c = algebra::pure(coefficients(motion));
     for (Eigen::Index k = 0; k < c.cols(); ++k) result.push_back(frame.motion(c.col(k), kNoise));
@@ -118,46 +120,44 @@ struct Motions {
 template <int Columns>
 DenseMatrix energies(const SparseMatrix& lower, const ByRows& F) {
   using Numbers = Eigen::Matrix<double, Eigen::Dynamic, Columns, Eigen::RowMajor>;
-  return F.transpose() * algebra::symmetric_product(lower, Eigen::Map<const Numbers>(F.data(), F.rows(), Columns));
+  return F.transpose() * ByRows(algebra::symmetric_product(lower, Eigen::Map<const Numbers>(F.data(), F.rows(), Columns)));
 }
 
 /// The least Rayleigh quotient (K, M) on the span of V; infinite where V is nothing.
-double least_quotient(const Motions& motions, const SparseMatrix& lower, DenseMatrix V) {
-  const Vector norm = (V.cwiseAbs2().transpose() * motions.w).cwiseSqrt();
-  for (Eigen::Index k = 0; k < V.cols(); ++k) V.col(k) *= norm[k] > 0 ? 1 / norm[k] : 0;
-  const DenseMatrix Q = orthonormal_in(motions.w, V, 1e-8);
+double least_quotient(const Motions& motions, const SparseMatrix& lower, ByRows V) {
+  const Vector square = motions.inner(V, V).diagonal();
+  for (Eigen::Index k = 0; k < V.cols(); ++k) V.col(k) *= square[k] > 0 ? 1 / std::sqrt(square[k]) : 0;
+  const ByRows Q = combined(V, orthonormal_combinations(motions.inner(V, V), 1e-8));
   if (Q.cols() == 0) return INFINITY;
-  return algebra::eigenvalues(Q.transpose() * algebra::symmetric_product(lower, ByRows(Q)))[0];
+  return algebra::eigenvalues(Q.transpose() * algebra::symmetric_product(lower, Q))[0];
 }
 
 /// Q: rigid motions without the kernel, M-orthonormal.
-WeakMotions by_response(const Motions& motions, const DenseMatrix& Q, const Numbering& numbering, const SparseMatrix& lower, const DenseMatrix& kernel) {
+WeakMotions by_response(const Motions& motions, const ByRows& Q, const Numbering& numbering, const SparseMatrix& lower, const DenseMatrix& kernel) {
   WeakMotions result;
   algebra::GeneralisedInverse inverse(lower, numbering.node, kernel);
   if (!inverse.factor(lower)) return result;  // singular for another reason, which the solver tells
-  const auto response = [&](const DenseMatrix& u) {
-    return motions.without(kernel, inverse.apply(motions.w.asDiagonal() * u));
-  };
-  const auto deformation = [&](const DenseMatrix& u) {
-    return DenseMatrix(u - Q * (Q.transpose() * motions.w.asDiagonal() * u));
-  };
-  const DenseMatrix U = response(Q), compliance = Q.transpose() * motions.w.asDiagonal() * U;
+  const ByRows fixed = kernel;
+  const auto response = [&](const ByRows& u) { return motions.without(fixed, inverse.apply(motions.w.asDiagonal() * u)); };
+  const auto deformation = [&](const ByRows& u) { return ByRows(u - combined(Q, motions.inner(Q, u))); };
+  const ByRows U = response(Q);
+  const DenseMatrix compliance = motions.inner(Q, U);
   const algebra::Eigenpairs soft = algebra::eigenpairs((compliance + compliance.transpose()) / 2);
-  DenseMatrix D(U.rows(), U.cols() + 1);
-  D << deformation(U / U.lpNorm<Eigen::Infinity>()), deformation(motions.without(kernel, motions.dilatation()));
+  ByRows D(U.rows(), U.cols() + 1);
+  D << deformation(U / U.lpNorm<Eigen::Infinity>()), deformation(motions.without(fixed, motions.dilatation()));
   const double own = least_quotient(motions, lower, deformation(response(D)));
   std::vector<Eigen::Index> weak;
   for (Eigen::Index k = 0; k < U.cols(); ++k)
     if (1 / soft.values[k] < kNearlyFree * own) weak.push_back(k);
   if (weak.empty()) return result;
   result.stiffness = 1 / (soft.values[weak.back()] * own);
-  result.motions = motions.named(Q * soft.vectors(Eigen::all, weak));
+  result.motions = motions.named(combined(Q, soft.vectors(Eigen::all, weak)));
   return result;
 }
 
 /// The motions (columns) that springs alone resist, by less than rounding.
-DenseMatrix lost_in_rounding(const Motions& motions, const mesh::Mesh& mesh, const Numbering& numbering,
-                             const SparseMatrix& lower, const DenseMatrix& tried) {
+ByRows lost_in_rounding(const Motions& motions, const mesh::Mesh& mesh, const Numbering& numbering,
+                             const SparseMatrix& lower, const ByRows& tried) {
   const Vector residual = algebra::kernel_residual(lower, tried);
   std::vector<Eigen::Index> lost;
   for (Eigen::Index m = 0; m < residual.size(); ++m) {
@@ -179,17 +179,17 @@ WeakMotions weak_motions(const mesh::Mesh& mesh, const Numbering& numbering, con
   const int all = mesh.dimension() == 2 ? 3 : 6;
   if (numbering.count() == 0 || kernel.cols() == all) return {};
   const Motions motions(mesh, numbering);
-  const Vector& w = motions.w;
-  DenseMatrix gram = motions.rigid().transpose() * w.asDiagonal() * motions.rigid();
-  if (kernel.cols() > 0) gram -= DenseMatrix(motions.rigid().transpose() * w.asDiagonal() * kernel) * motions.in_kernel(kernel, motions.rigid());
+  const ByRows fixed = kernel;
+  DenseMatrix gram = motions.inner(motions.rigid(), motions.rigid());
+  if (kernel.cols() > 0) gram -= algebra::product(motions.inner(motions.rigid(), fixed), motions.in_kernel(fixed, motions.rigid()));
   const DenseMatrix T = orthonormal_combinations(gram, 1e-12);  // less what is in the kernel, or nothing on these unknowns
   if (T.cols() == 0) return {};
   const DenseMatrix E = all == 3 ? energies<4>(lower, motions.F) : energies<7>(lower, motions.F);
-  const algebra::Eigenpairs trial = algebra::eigenpairs(T.transpose() * E.topLeftCorner(all, all) * T);
-  const double own = E(all, all) / motions.dilatation().cwiseAbs2().dot(w);
+  const algebra::Eigenpairs trial = algebra::eigenpairs(algebra::product(T.transpose(), algebra::product(E.topLeftCorner(all, all), T)));
+  const double own = E(all, all) / motions.inner(motions.dilatation(), motions.dilatation())(0, 0);
   if (!std::isfinite(own) || !(trial.values[0] < kSuspicious * own)) return {};
-  const DenseMatrix Q = motions.without(kernel, motions.rigid() * T);
-  const DenseMatrix lost = lost_in_rounding(motions, mesh, numbering, lower, Q * trial.vectors);
+  const ByRows Q = motions.without(fixed, combined(motions.rigid(), T));
+  const ByRows lost = lost_in_rounding(motions, mesh, numbering, lower, combined(Q, trial.vectors));
   if (lost.cols() > 0) return {0, motions.named(lost)};
   return by_response(motions, Q, numbering, lower, kernel);
 }

@@ -1,5 +1,6 @@
 #include "scene/model/free_jumps.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 

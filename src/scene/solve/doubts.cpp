@@ -1,10 +1,11 @@
 #include "scene/solve/doubts.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <map>
 
+#include "algebra/dense/decompositions.hpp"
 #include "algebra/dense/null_space.hpp"
 #include "base/text.hpp"
 
@@ -187,7 +188,7 @@ void see_rotation(const Body& body, const std::vector<double>& u, std::vector<st
     moment += x.cross(vector(&u[static_cast<std::size_t>(k) * dim]) - mean);
     inertia += x.squaredNorm() * Eigen::Matrix3d::Identity() - x * x.transpose();
   }
-  const double angle = dim == 2 ? std::abs(moment[2]) / inertia(2, 2) : Eigen::Vector3d(inertia.ldlt().solve(moment)).norm();
+  const double angle = dim == 2 ? std::abs(moment[2]) / inertia(2, 2) : algebra::Ldlt(inertia).solve(algebra::Vector(moment)).norm();
   if (angle > kGreatRotation)
     all.push_back(text("'", body.name, "' turns by ", angle, " (as a whole, in radians): equations of small displacements do not hold beyond about ",
                        kGreatRotation));

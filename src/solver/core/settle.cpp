@@ -1,6 +1,6 @@
 #include "solver/core/settle.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <cmath>
 
 #include "algebra/dense/null_space.hpp"
