@@ -27,11 +27,18 @@ struct Grouping {
   std::vector<int> of_unknown, last;
 };
 
-/// The unknowns of a node that some row acts on, and its others apart: where normals are along an axis, Γ is a third of what its nodes have.
+/// The unknowns of a node that some row acts on, and its others apart: where normals are along an axis, Γ is a third of what its nodes have. Where rows are on a
+/// small part of a free body, some far from it go last as well.
 Grouping apart(const Block& block, const SparseRows& rows) {
   std::vector<char> touched(block.node.size(), 0);
   for (int r = 0; r < rows.rows(); ++r)
     for (SparseRows::InnerIterator it(rows, r); it; ++it) touched[it.col()] = 1;
+  if (block.kernel.cols() > 0) {
+    std::vector<int> unknowns;
+    for (std::size_t i = 0; i < touched.size(); ++i)
+      if (touched[i]) unknowns.push_back(static_cast<int>(i));
+    for (const int i : algebra::far_unknowns(block.kernel, unknowns)) touched[i] = 1;
+  }
   Grouping out;
   int group = -1;
   for (std::size_t i = 0; i < touched.size(); ++i) {

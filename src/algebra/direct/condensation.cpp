@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include "algebra/dense/decompositions.hpp"
 #include "algebra/dense/dense.hpp"
@@ -9,18 +10,45 @@
 
 namespace dotyk::algebra {
 
-Condensation::Condensation(const SparseMatrix& K, const std::vector<int>& node,
-                           const std::vector<int>& last, const DenseMatrix& kernel,
-                           Ordering ordering)
-    : factor_(K, node, last, ordering, kernel.cols() > 0) {
-  const Eigen::Index modes = kernel.cols();
-  kernel_ = kernel(boundary(), Eigen::all);
-  if (modes == 0) return;
-  const SingularFactors svd = singular_factors(kernel_);
-  const Eigen::Index rank = svd.rank(1e-9 * kernel.lpNorm<Eigen::Infinity>());
-  basis_ = svd.U.leftCols(rank);
-  felt_ = svd.V.leftCols(rank) * svd.values.head(rank).cwiseInverse().asDiagonal();
-  unfelt_ = svd.V.rightCols(modes - rank);
+namespace {
+
+constexpr double kFar = 10, kVanishes = 1e-9;
+
+double farthest(const DenseMatrix& motions) { return motions.size() ? motions.rowwise().norm().maxCoeff() : 0; }
+
+/// A kernel as some unknowns feel it.
+struct Felt {
+  DenseMatrix basis;   ///< R̂ = R V, orthonormal on these unknowns
+  DenseMatrix felt;    ///< V
+  DenseMatrix unfelt;  ///< combinations of R that vanish there
+  Felt(const DenseMatrix& kernel, const std::vector<int>& unknowns) {
+    const SingularFactors svd = singular_factors(kernel(unknowns, Eigen::all));
+    const Eigen::Index rank = svd.rank(kVanishes * kernel.lpNorm<Eigen::Infinity>());
+    basis = svd.U.leftCols(rank);
+    felt = svd.V.leftCols(rank) * svd.values.head(rank).cwiseInverse().asDiagonal();
+    unfelt = svd.V.rightCols(kernel.cols() - rank);
+  }
+};
+
+}  // namespace
+
+std::vector<int> far_unknowns(const DenseMatrix& kernel, const std::vector<int>& unknowns) {
+  const Felt here(kernel, unknowns);
+  const DenseMatrix felt = kernel * here.felt;
+  if (farthest(felt) <= kFar * farthest(here.basis)) return {};
+  const Vector unfelt = DenseMatrix(kernel * here.unfelt).rowwise().norm();
+  std::vector<int> candidates, far;
+  for (Eigen::Index i = 0; i < unfelt.size(); ++i)
+    if (unfelt[i] <= kVanishes * kernel.lpNorm<Eigen::Infinity>()) candidates.push_back(static_cast<int>(i));
+  for (const int k : fixing_unknowns(DenseMatrix(felt(candidates, Eigen::all)))) far.push_back(candidates[k]);
+  return far;
+}
+
+Condensation::Condensation(const SparseMatrix& K, const std::vector<int>& node, const std::vector<int>& last, const DenseMatrix& kernel, Ordering ordering)
+    : factor_(K, node, last, ordering, kernel.cols() > 0), kernel_(kernel(boundary(), Eigen::all)) {
+  if (kernel_size() == 0) return;
+  Felt here(kernel, boundary());
+  basis_ = std::move(here.basis), felt_ = std::move(here.felt), unfelt_ = std::move(here.unfelt);
   pinned_ = fixing_unknowns(kernel * unfelt_);
 }
 
@@ -69,12 +97,11 @@ DenseMatrix Condensation::half_compliance(const SparseRows& B) const {
 }
 
 bool Condensation::are_far(const SparseRows& rows, const DenseMatrix& kernel) const {
-  constexpr double kFar = 10, kVanishes = 1e-9;
   if (kernel.cols() == 0 || rows.rows() == 0) return false;
   if (boundary().empty()) return true;
   const DenseMatrix moved = rows * kernel;
   const Vector size = rows.cwiseAbs() * Vector::Ones(rows.cols());
-  const double most = kFar * basis_.rowwise().norm().maxCoeff(), least = kVanishes * kernel.lpNorm<Eigen::Infinity>();
+  const double most = kFar * farthest(basis_), least = kVanishes * kernel.lpNorm<Eigen::Infinity>();
   return ((moved * felt_).rowwise().norm().array() > most * size.array()).any() || ((moved * unfelt_).rowwise().norm().array() > least * size.array()).any();
 }
 

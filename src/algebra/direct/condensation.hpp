@@ -8,6 +8,10 @@
 
 namespace dotyk::algebra {
 
+/// The unknowns to add to a Γ of `unknowns` so that no motion of the kernel that Γ feels moves the body more than about ten times as far: a rotation about a
+/// small contact part does, and digits would be lost. What Γ does not feel these do not feel either. Mostly none. `kernel`: as for Condensation.
+std::vector<int> far_unknowns(const DenseMatrix& kernel, const std::vector<int>& unknowns);
+
 /// A symmetric positive semidefinite K condensed onto the unknowns Γ of some nodes: the Schur complement S from the trailing block of one
 /// factor, and what is needed to work with it. A kernel R of K (rigid modes) is allowed: with R̂ an orthonormal basis of R on Γ, K + τ R̂R̂ᵀ is factored, so that
 /// M = S + τ R̂R̂ᵀ = L_Γ L_Γᵀ is positive definite and M⁻¹ a generalised inverse of S. Motions in the kernel that vanish on Γ

@@ -13,9 +13,6 @@ using problem::Problem;
 
 /// Smaller problems are solved by factors.
 constexpr int kSmall = 5000;
-/// A row that the coarser mesh has not touches if it is apart by no more than this share of the greatest displacement: between two closed rows of a flat
-/// part the mean is 0 but for rounding.
-constexpr double kTouches = 1e-9;
 /// Of a coarser solution: its contact forces are off by about as much because the mesh is coarse.
 constexpr double kTolerance = 0.1;
 
@@ -39,10 +36,10 @@ CoarseStart coarse_start(const Problem& problem, const Pdas& settings, Monitor& 
   try {
     const CoarseStart before = coarse_start(part, settings, inner);
     Pdas begun = settings;
-    begun.start = before.active, begun.from = before.state, begun.coarser = before.stiffness, begun.nested = false, begun.rough = true;
+    begun.from = before.state, begun.coarser = before.stiffness, begun.nested = false, begun.rough = true;
     begun.tol = std::max(begun.tol, kTolerance);
     start.meshes = before.meshes + 1;
-    result = part.unknowns() > kSmall ? solve(part, begun, inner) : solve(part, {}, {before.active}, inner);
+    result = part.unknowns() > kSmall ? solve(part, begun, inner) : solve(part, {}, {}, inner);
   } catch (const Interrupted&) {
     throw;
   } catch (const SlowIterations&) {
@@ -50,14 +47,8 @@ CoarseStart coarse_start(const Problem& problem, const Pdas& settings, Monitor& 
   } catch (const std::exception&) {  // said of the mesh that is given, where it is so there, too
   }
   monitor.check();
-  if (!result.converged || result.active_sets.empty() || result.active_sets.back().empty()) return {};
+  if (!result.converged) return {};
   rows.extend(result);
-  const Vector moved = coarse.problem.B * result.state.u, x = moved - coarse.problem.c;
-  const double touches = -kTouches * moved.lpNorm<Eigen::Infinity>();
-  start.active = result.active_sets.back();
-  for (const problem::RowGroup& group : problem.groups)
-    for (int r = group.first; r < group.first + group.count; ++r)
-      if (!coarse.kept[r]) start.active[r] = x[r] >= touches;
   start.state = std::make_shared<problem::State>(coarse.prolonged(result.state));
   if (problem.blocks.size() != 1) return start;
   start.stiffness = std::make_shared<algebra::SparseMatrix>();

@@ -1,19 +1,16 @@
 #pragma once
 
 #include <memory>
-#include <vector>
 
 #include "solver/active/pdas.hpp"
 
 namespace dotyk::solver {
 
-/// Where to begin on a mesh that refines another. The problem is first solved on the coarser mesh; the rows that bear or overlap there are the first
-/// active ones here, and its displacement, with points that stick and slip, is the first state. The coarser mesh's own beginning is found in the same way
-/// (nested iteration: Kornhuber 1994, Brandt and Cryer 1983). Otherwise the end of a contact zone moves by few rows a step.
+/// Where to begin on a mesh that refines another: at the solution on the coarser mesh, whose own beginning is found in the same way (nested iteration:
+/// Kornhuber 1994, Brandt and Cryer 1983). Otherwise the end of a contact zone moves by few rows a step.
 struct CoarseStart {
-  std::vector<char> active;  ///< by row; empty where no coarser mesh is known or its problem was not solved
-  int meshes = 0;            ///< solved on
-  std::shared_ptr<const problem::State> state;  ///< of this mesh, as the coarser one's; null likewise
+  std::shared_ptr<const problem::State> state;  ///< of this mesh, as the coarser one's; null where no coarser mesh is known or its problem was not solved
+  int meshes = 0;                               ///< solved on
   std::shared_ptr<algebra::SparseMatrix> stiffness;  ///< of the coarser mesh, where there is one body; null likewise
 };
 CoarseStart coarse_start(const problem::Problem& problem, const Pdas& settings, Monitor& monitor);

@@ -54,6 +54,8 @@ class HeldStiffness {
                 const algebra::SparseMatrix* coarser = nullptr);
 
   const problem::RowBasis& basis() const { return basis_; }
+  /// TᵀKT, with zeros where rows couple unknowns.
+  const algebra::SparseMatrix& lower() const { return lower_.size() > 0 ? lower_ : problem_.blocks.front().K; }
   /// `spring`: s, force per displacement, rows; `held`: one flag an unknown of the basis; `added`: to the matrix, lower triangle, of the unknowns of
   /// rows of one point. False where the matrix is not positive definite.
   bool factor(const algebra::Vector& spring, const std::vector<char>& held, const std::vector<Eigen::Triplet<double>>& added = {});
@@ -89,7 +91,6 @@ class HeldStiffness {
   void watch(const std::vector<char>& held);
   /// TᵀKT y from A y, for a y that is zero at what is held: A has springs in addition, and lacks the rows of held unknowns.
   algebra::Vector resistance(const algebra::Vector& y, algebra::Vector Ay) const;
-  const algebra::SparseMatrix& lower() const { return lower_.size() > 0 ? lower_ : problem_.blocks.front().K; }
   /// What differs from lower(), each place once and in their order; changed_ is empty then.
   std::vector<Entry> now();
   /// The numbers of these entries, and of those that the solver was told of and that no longer differ.

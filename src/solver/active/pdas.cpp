@@ -28,7 +28,7 @@ constexpr std::array<Rescue, 3> kRescues{by_sweeps, by_barrier, by_interior_poin
 
 /// Where the iteration begins if no start is given: where rows follow one another along edges, as few of them end; on unknowns, as an interior point method.
 std::string begin(SetIteration& it) {
-  const bool given = !it.settings.start.empty();
+  const bool given = it.begins_somewhere();
   if (it.settings.reduced && !it.screws && !given) {
     const auto nested = nested_start(it.problem, it.condensed(), it.rho, *it.step);
     if (!nested) return "";
@@ -132,11 +132,11 @@ void come_to_rest(SetIteration& it) {
 Result solve(const problem::Problem& problem, const Pdas& settings, Monitor& monitor) {
   if (settings.reduced || settings.step) require_frictionless(problem, "pdas");
   require_springs(problem, "pdas");
-  if (settings.nested && settings.start.empty()) {
+  if (settings.nested && settings.start.empty() && !settings.from) {
     Stopwatch watch;
     const CoarseStart coarse = coarse_start(problem, settings, monitor);
     Pdas begun = settings;
-    begun.start = coarse.active, begun.from = coarse.state, begun.coarser = coarse.stiffness, begun.nested = false;
+    begun.from = coarse.state, begun.coarser = coarse.stiffness, begun.nested = false;
     const double before = watch.lap();
     Result result = solve(problem, begun, monitor);
     if (coarse.meshes > 0) result.reason += text(", begun on ", coarse.meshes, coarse.meshes == 1 ? " coarser mesh" : " coarser meshes");
@@ -146,7 +146,7 @@ Result solve(const problem::Problem& problem, const Pdas& settings, Monitor& mon
   SetIteration it(problem, settings, monitor);
   Stopwatch iterating;
   const std::string begun = begin(it);
-  bool inside = settings.interior && settings.start.empty();  // an interior point method has been tried
+  bool inside = settings.interior && !it.begins_somewhere();  // an interior point method has been tried
   std::string rescued;
   const End end = iterate_and_rescue(it, inside, rescued);
   conclude(it, end, inside, rescued);

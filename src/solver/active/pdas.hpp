@@ -27,7 +27,7 @@ struct Pdas : Settings {
   bool interior = false;
   /// What solves the linear systems of all unknowns; empty: a sparse Cholesky factor.
   MakeSpdSolver linear;
-  /// Where coarser meshes are known and no `start` is given, the iteration begins at the solution on the next coarser mesh; see coarse_start().
+  /// Where coarser meshes are known and neither `start` nor `from` is given, the iteration begins at the solution on the next coarser mesh; see coarse_start().
   bool nested = false;
   /// The stiffness of problem::coarser(), where there is one body and that is known; spares multigrid the product. The solve
   /// empties this matrix after its linear solver has been made.

@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "problem/residual.hpp"
+#include "solver/active/relaxed.hpp"
 
 namespace dotyk::solver {
 
@@ -97,17 +98,11 @@ SetIteration::SetIteration(const Problem& problem, const Pdas& settings, Monitor
   if (settings.from && !settings.reduced) begin_from(*settings.from);
 }
 
-/// Goes on from u, and from where points stick and slip in `from`; which normal rows bear is known from `start`. Bounds that are
-/// given belong to points of this mesh, and the coarser one has only some of them: its friction is too small there, and its slip is left out.
+/// Goes on from `from`, relaxed near the rows that bear there.
 void SetIteration::begin_from(const problem::State& from) {
-  step->begin(from.u);
-  const auto given = [](const problem::FrictionGroup& group) { return group.points() > 0 && group.law->bound_slope(0) == 0; };
-  if (problem.friction.empty() || std::ranges::any_of(problem.friction, given)) return;
-  Vector forces = from.lambda, places = problem.B * from.u - problem.c;
-  const double least = 1e-9 * forces.lpNorm<Eigen::Infinity>();
-  for (const auto& [law, k, r] : problem.scalar_rows())
-    if (law.unilateral()) forces[r] = l.active[r] ? std::max(forces[r], least) : 0, places[r] = l.active[r] ? 0 : -1;  // -1: any gap is open
-  l = held(linearise(problem, forces, places, rho, {}, nullptr), -problem.c);
+  const problem::State near = relaxed(problem, stiffness(), from);
+  step->begin(near.u);
+  l = held(linearise(problem, near.lambda, problem.B * near.u - problem.c, rho, {}, nullptr), -problem.c);
 }
 
 void SetIteration::place_screws() {

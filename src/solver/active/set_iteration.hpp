@@ -55,6 +55,8 @@ class SetIteration {
   std::optional<algebra::Vector> settled;  ///< u of another method
   std::optional<Screws> screws;
   std::unique_ptr<Step> step;
+  /// At rows or at a state that the settings name.
+  bool begins_somewhere() const { return !settings.start.empty() || (settings.from && !settings.reduced); }
   bool is_condensed() const { return condensed_ != nullptr; }
   bool is_analysed() const { return stiffness_.has_value(); }
 

@@ -89,7 +89,7 @@ struct Beginning {
   std::vector<char> start;
   /// Shared by problems that differ in f and c alone, for methods that condense; empty: condensed anew.
   std::shared_ptr<problem::Condenser> condenser = nullptr;
-  /// A state of this problem to go on from. RowMethod then ignores `start`; `pdas` on all unknowns takes both; other methods ignore this. Empty: from rest.
+  /// A state of this problem to go on from. RowMethod and `pdas` on all unknowns then ignore `start`; other methods ignore this. Empty: from rest.
   std::shared_ptr<const problem::State> from = nullptr;
 };
 
