@@ -78,6 +78,24 @@ TEST_CASE("condensation of a free body: M⁻¹ is a generalised inverse of S") {
   }
 }
 
+TEST_CASE("unknowns far from a small part hold what turns about it, and feel nothing that the part does not") {
+  constexpr int n = 200;  // points along a line, with two unknowns
+  DenseMatrix R = DenseMatrix::Zero(2 * n, 3);
+  for (int i = 0; i < n; ++i) R(2 * i, 0) = R(2 * i + 1, 1) = 1, R(2 * i + 1, 2) = i / double(n);  // along, across, a rotation
+  const auto across = [](std::vector<int> points) {
+    for (int& i : points) i = 2 * i + 1;
+    return points;
+  };
+  CHECK(algebra::far_unknowns(R, across({0, 50, 100, 199})).empty());
+  CHECK(algebra::far_unknowns(R, across({7})).empty());  // feels no rotation
+  std::vector<int> part = across({99, 100, 101}), far = algebra::far_unknowns(R, part);
+  REQUIRE(far.size() == 2);
+  for (const int unknown : far) CHECK(unknown % 2 == 1);
+  CHECK(std::abs(far[0] - far[1]) > n);
+  part.insert(part.end(), far.begin(), far.end());
+  CHECK(algebra::far_unknowns(R, part).empty());
+}
+
 TEST_CASE("condensation reports a body that its boundary and kernel do not hold") {
   Random random(13);
   const auto grid = test::spring_grid(random, 5, 5, 2, 0);

@@ -114,6 +114,14 @@ for _, n in ipairs{ 12, 24 } do
   before = s.multigrid.cg
 end
 
+-- Where contact, stick and slip end is put right on the finer mesh before the first step: with friction, too, steps are few.
+do
+  local scenes <const> = include "../../scripts/lib/scale_scenes.lua"
+  local s <const>, one <const> = S.multigrid{}:solve(scenes.cube(24, { friction = 0.3 })), S.multigrid{}:solve(scenes.cube(24, {}))
+  check.that(s.converged and s.multigrid.newton <= 3, s.multigrid.newton)
+  check.that(one.converged and one.multigrid.newton == 1, one.multigrid.newton)
+end
+
 -- Coarser problems that cannot say where to begin: no row at a node of theirs; oblique slides that are all turned away; springs; a beam.
 do
   local function plane(cells, to)

@@ -1,0 +1,51 @@
+#include "solver/active/relaxed.hpp"
+
+#include <doctest/doctest.h>
+
+#include "../support/programs.hpp"
+#include "problem/rigid_motions.hpp"
+#include "solver/core/default_method.hpp"
+
+using namespace dotyk;
+using algebra::DenseMatrix;
+using algebra::Vector;
+
+namespace {
+
+/// Two unilateral rows, two points that stick or slip under given bounds, and one under a bound that follows the first row.
+problem::Problem random_problem(test::Random& random) {
+  constexpr int kUnknowns = 24, kRows = 8;
+  DenseMatrix B = DenseMatrix::Zero(kRows, kUnknowns);
+  for (int r = 0; r < kRows; ++r) B(r, 2 * r) = random.between(0.5, 1.5), B(r, 2 * r + 1) = r % 2 ? random.between(-1, 1) : 0;  // jumps, and one unknown
+  Vector c = Vector::Zero(kRows);
+  c.head(2) = 0.1 * random.vector(2);
+  auto p = test::program(random.positive_definite(kUnknowns, 0.3), random.vector(kUnknowns), B, c);
+  p.groups = {test::group(problem::unilateral(), 0, 2)};
+  p.friction = {{"given", problem::tresca({0.02, 0.3}), 2, 2, {-1, -1}}, {"following", problem::coulomb({0.3}), 6, 2, {0}}};
+  return p;
+}
+
+}  // namespace
+
+TEST_CASE("sweeps over all unknowns leave a solution as it is, and end there from elsewhere") {
+  test::Random random(506);
+  Monitor quiet;
+  int bear = 0, slip = 0;
+  for (int trial = 0; trial < 30; ++trial) {
+    const problem::Problem p = random_problem(random);
+    const solver::HeldStiffness stiffness(p, problem::rigid_motions(p), solver::factor(algebra::Ordering::automatic), quiet);
+    const solver::Result exact = solver::solve(p, {}, {}, quiet);
+    REQUIRE(exact.converged);
+    for (int r = 0; r < 2; ++r) bear += exact.state.lambda[r] > 0;
+    slip += (p.B * exact.state.u).segment(2, 2).norm() > 1e-6;
+    const auto apart = [&](const problem::State& s) {
+      return (s.u - exact.state.u).norm() / exact.state.u.norm() + (s.lambda - exact.state.lambda).norm() / exact.state.lambda.norm();
+    };
+    CHECK(apart(solver::relaxed(p, stiffness, exact.state)) < 1e-8);
+    problem::State s{random.vector(p.unknowns()), Vector::Ones(p.rows())};
+    for (int k = 0; k < 200; ++k) s = solver::relaxed(p, stiffness, std::move(s));
+    CHECK(apart(s) < 1e-6);
+  }
+  CHECK(bear > 10);
+  CHECK(slip > 10);
+}
