@@ -28,14 +28,24 @@ bool Occupied::meets(const Box& box) const {
   return std::any_of(points_.begin(), points_.end(), [&](Point p) { return box.holds(p); });
 }
 
+namespace {
+
+double squared_distance(const Box& box, Point p) {
+  const double dx = std::max(0.0, std::max(box.left - p.x, p.x - box.right));
+  const double dy = std::max(0.0, std::max(box.bottom - p.y, p.y - box.top));
+  return dx * dx + dy * dy;
+}
+
+}  // namespace
+
+bool Occupied::clear_of(const Box& box, double margin) const {
+  return std::none_of(points_.begin(), points_.end(), [&](Point p) { return squared_distance(box, p) < margin * margin; });
+}
+
 double Occupied::distance(const Box& box) const {
-  double least = 1e9;
-  for (const Point& p : points_) {
-    const double dx = std::max({box.left - p.x, 0.0, p.x - box.right});
-    const double dy = std::max({box.bottom - p.y, 0.0, p.y - box.top});
-    least = std::min(least, std::hypot(dx, dy));
-  }
-  return least;
+  double least = 1e18;
+  for (const Point& p : points_) least = std::min(least, squared_distance(box, p));
+  return std::sqrt(least);
 }
 
 std::optional<Point> free_place(const Occupied& occupied, const Box& room, Point size, double margin) {
@@ -58,8 +68,8 @@ std::optional<Point> near_place(const Occupied& occupied, const Occupied& to, co
     for (int j = 0; j <= steps; ++j) {
       const Point p{room.left + margin + x * i / steps, room.bottom + margin + y * j / steps};
       const Box block{p.x, p.y, p.x + size.x, p.y + size.y};
+      if (!occupied.clear_of(block, margin)) continue;
       const double nearest = occupied.distance(block), own = to.distance(block);
-      if (nearest < margin) continue;
       const double cost = own + kOthers * (own - nearest) + 0.02 * (p.y - room.bottom);
       if (!place || cost < best) best = cost, place = p;
     }
@@ -75,7 +85,7 @@ std::optional<Point> place_beside(const Occupied& occupied, const Box& room, Poi
       const Point middle = at + 0.3 * ring * size.y * Point{std::cos(angle), std::sin(angle)};
       const Box box = Box::about(middle, size);
       const bool inside = box.left >= room.left + margin && box.right <= room.right - margin && box.bottom >= room.bottom + margin && box.top <= room.top - margin;
-      if (inside && occupied.distance(box) >= margin) return middle;
+      if (inside && occupied.clear_of(box, margin)) return middle;
     }
   return std::nullopt;
 }

@@ -14,7 +14,8 @@ public:
   void add(const std::vector<Point>& curve, const Box& inside);
   void add(const Box& box);
   bool meets(const Box& box) const;
-  double distance(const Box& box) const;     // to the nearest point, 0 inside
+  bool clear_of(const Box& box, double margin) const;
+  double distance(const Box& box) const;  // to the nearest point, 0 inside
 
 private:
   std::vector<Point> points_;
