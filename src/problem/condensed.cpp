@@ -27,8 +27,8 @@ struct Grouping {
   std::vector<int> of_unknown, last;
 };
 
-/// The unknowns of a node that some row acts on, and its others apart: where normals are along an axis, Γ is a third of what its nodes have. Where rows are on a
-/// small part of a free body, some far from it go last as well.
+/// The unknowns of a node that some row acts on, and its others apart: where normals are along an axis, Γ is a third of what its nodes have. Where the rows
+/// of a free body act on a small part, a few unknowns far from it go last as well: algebra::far_unknowns().
 Grouping apart(const Block& block, const SparseRows& rows) {
   std::vector<char> touched(block.node.size(), 0);
   for (int r = 0; r < rows.rows(); ++r)

@@ -28,7 +28,7 @@ Vector distances(const Problem& problem, const Vector& x, const Vector& lambda, 
       const int r = group.row(k);
       const auto own = lambda.segment(r, group.components);
       const Vector y = own + rho_of_point(group, k) * x.segment(r, group.components);
-      d[r] = (own - project_disc(y, group.bound(k, lambda)).value).norm();
+      d[r] = (own - disc_factor(y.norm(), group.bound(k, lambda)) * y).norm();
     }
   return d;
 }

@@ -94,6 +94,30 @@ TEST_CASE("unknowns far from a small part hold what turns about it, and feel not
   CHECK(std::abs(far[0] - far[1]) > n);
   part.insert(part.end(), far.begin(), far.end());
   CHECK(algebra::far_unknowns(R, part).empty());
+  CHECK(algebra::far_unknowns(R, {}).empty());
+}
+
+TEST_CASE("unknowns far from a small part of a turned body: none of the part's own, and all motions are then near") {
+  Random random(17);
+  constexpr int n = 60;  // nodes in space, all directions mixed
+  DenseMatrix R(3 * n, 6);
+  for (int i = 0; i < n; ++i) {
+    const double x = random.between(-1, 1), y = random.between(-1, 1), z = random.between(-1, 1);
+    R.middleRows(3 * i, 3) << 1, 0, 0, 0, z, -y, 0, 1, 0, -z, 0, x, 0, 0, 1, y, -x, 0;
+  }
+  R.middleRows(3, 6) = R.topRows(3).replicate(2, 1);  // nodes 1 and 2 are near node 0
+  R.middleRows(3, 6).rightCols(3) += 1e-3 * random.matrix(6, 3);
+  const auto all_of = [](int nodes) {
+    std::vector<int> unknowns(static_cast<std::size_t>(3 * nodes));
+    std::iota(unknowns.begin(), unknowns.end(), 0);
+    return unknowns;
+  };
+  std::vector<int> part = all_of(3), far = algebra::far_unknowns(R, part);
+  CHECK(!far.empty());
+  for (const int unknown : far) CHECK(unknown >= 9);
+  part.insert(part.end(), far.begin(), far.end());
+  CHECK(algebra::far_unknowns(R, part).empty());
+  CHECK(algebra::far_unknowns(R, all_of(n)).empty());
 }
 
 TEST_CASE("condensation reports a body that its boundary and kernel do not hold") {

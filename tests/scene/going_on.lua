@@ -37,3 +37,17 @@ for _, free in ipairs{ false, true } do
     if solved.converged then check.that(dotyk.solver[name]{ max_iterations = 5000 }:solve(it, { start = solved }).iterations <= 3, name) end
   end
 end
+
+-- Methods on all unknowns go on from the whole state, named or by default.
+do
+  local scenes <const> = include "../../scripts/lib/scale_scenes.lua"
+  for _, friction in ipairs{ false, 0.3 } do
+    local it <const> = scenes.cube(20, { friction = friction or nil })
+    for name, solve in pairs{ default = dotyk.solve, pdas = function(...) return dotyk.solver.pdas{ reduced = false }:solve(...) end } do
+      local solved <const> = solve(it)
+      local on <const> = solve(it, { start = solved })
+      check.that(on.converged and on.iterations < math.max(2, solved.iterations), ("%s: %d iterations after %d"):format(name, on.iterations, solved.iterations))
+      check.near(on.energy, solved.energy, 1e-9 * math.abs(solved.energy), name)
+    end
+  end
+end

@@ -117,9 +117,20 @@ end
 -- Where contact, stick and slip end is put right on the finer mesh before the first step: with friction, too, steps are few.
 do
   local scenes <const> = include "../../scripts/lib/scale_scenes.lua"
-  local s <const>, one <const> = S.multigrid{}:solve(scenes.cube(24, { friction = 0.3 })), S.multigrid{}:solve(scenes.cube(24, {}))
+  local s <const>, one <const> = S.multigrid{}:solve(scenes.cube(24, { friction = 0.3 })), S.multigrid{}:solve(scenes.cube(12, {}))
   check.that(s.converged and s.multigrid.newton <= 3, s.multigrid.newton)
   check.that(one.converged and one.multigrid.newton == 1, one.multigrid.newton)
+  -- Not beside a body a thousand times stiffer, where sweeps near the rows balance what interpolation left within that body.
+  local apart <const> = S.multigrid{}:solve(scenes.blocks(16, { friction = 0.6, contrast = 1000 }))
+  check.that(apart.converged and apart.iterations <= 12, apart.reason)
+end
+
+-- Given friction begins on coarser meshes as well.
+do
+  local scene <const> = cube(24, dotyk.friction.tresca(2))
+  local s <const>, cold <const> = S.multigrid{}:solve(scene), S.multigrid{ nested = false }:solve(scene)
+  check.that(s.converged and s.iterations < cold.iterations, ("%d steps, %d at rest"):format(s.iterations, cold.iterations))
+  check.near(s.energy, cold.energy, 1e-9 * math.abs(cold.energy))
 end
 
 -- Coarser problems that cannot say where to begin: no row at a node of theirs; oblique slides that are all turned away; springs; a beam.

@@ -16,7 +16,7 @@ namespace {
 problem::Problem random_problem(test::Random& random) {
   constexpr int kUnknowns = 24, kRows = 8;
   DenseMatrix B = DenseMatrix::Zero(kRows, kUnknowns);
-  for (int r = 0; r < kRows; ++r) B(r, 2 * r) = random.between(0.5, 1.5), B(r, 2 * r + 1) = r % 2 ? random.between(-1, 1) : 0;  // jumps, and one unknown
+  for (int r = 0; r < kRows; ++r) B(r, 2 * r) = random.between(0.5, 1.5), B(r, 2 * r + 1) = r % 2 ? random.between(-1, 1) : 0;  // odd rows act on two unknowns
   Vector c = Vector::Zero(kRows);
   c.head(2) = 0.1 * random.vector(2);
   auto p = test::program(random.positive_definite(kUnknowns, 0.3), random.vector(kUnknowns), B, c);
@@ -41,11 +41,40 @@ TEST_CASE("sweeps over all unknowns leave a solution as it is, and end there fro
     const auto apart = [&](const problem::State& s) {
       return (s.u - exact.state.u).norm() / exact.state.u.norm() + (s.lambda - exact.state.lambda).norm() / exact.state.lambda.norm();
     };
-    CHECK(apart(solver::relaxed(p, stiffness, exact.state)) < 1e-8);
-    problem::State s{random.vector(p.unknowns()), Vector::Ones(p.rows())};
-    for (int k = 0; k < 200; ++k) s = solver::relaxed(p, stiffness, std::move(s));
+    CHECK(apart(solver::relaxed(p, stiffness, exact.state).value()) < 1e-8);
+    problem::State s{exact.state.u + 0.02 * exact.state.u.lpNorm<Eigen::Infinity>() * random.vector(p.unknowns()), exact.state.lambda};
+    CHECK(apart(s) > 1e-3);
+    for (int k = 0; k < 200; ++k) s = solver::relaxed(p, stiffness, s).value();
     CHECK(apart(s) < 1e-6);
   }
   CHECK(bear > 10);
   CHECK(slip > 10);
+}
+
+TEST_CASE("sweeps stay near the rows that bear, and leave forces that they would change much") {
+  test::Random random(507);
+  constexpr int kUnknowns = 40;
+  DenseMatrix chain = DenseMatrix::Zero(kUnknowns, kUnknowns), B = DenseMatrix::Zero(2, kUnknowns);
+  for (int i = 0; i < kUnknowns; ++i) {
+    chain(i, i) = 2;
+    if (i > 0) chain(i, i - 1) = chain(i - 1, i) = -1;
+  }
+  B(0, 0) = B(1, 20) = 1;
+  Vector f = Vector::Zero(kUnknowns), c = Vector::Zero(2);
+  f[0] = 1, c[1] = 100;
+  const auto p = test::program(chain, f, B, c);
+  Monitor quiet;
+  const solver::HeldStiffness stiffness(p, problem::rigid_motions(p), solver::factor(algebra::Ordering::automatic), quiet);
+  problem::State from{1e-3 * random.vector(kUnknowns), Vector::Zero(2)};
+  const auto same = solver::relaxed(p, stiffness, from);  // nothing bears
+  REQUIRE(same);
+  CHECK(same->u == from.u);
+  from.lambda[0] = 1;
+  const auto near = solver::relaxed(p, stiffness, from);
+  REQUIRE(near);
+  CHECK(near->u.head(5) != from.u.head(5));
+  CHECK(near->u.tail(kUnknowns - 5) == from.u.tail(kUnknowns - 5));
+  CHECK(near->lambda[1] == 0);
+  from.lambda[0] = 10;
+  CHECK_FALSE(solver::relaxed(p, stiffness, from));
 }

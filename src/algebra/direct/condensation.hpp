@@ -8,18 +8,19 @@
 
 namespace dotyk::algebra {
 
-/// The unknowns to add to a Γ of `unknowns` so that no motion of the kernel that Γ feels moves the body more than about ten times as far: a rotation about a
-/// small contact part does, and digits would be lost. What Γ does not feel these do not feel either. Mostly none. `kernel`: as for Condensation.
+/// Unknowns to add to a Γ of `unknowns` where motions of the kernel that Γ feels move the body more than ten times as far, as rotations about a small contact
+/// part do: digits would be lost. They are of those outside Γ that move with Γ's motions alone, so that Γ feels no more motions than before, and lie
+/// far apart, as fixing_unknowns() says. Mostly none. `kernel`: as for Condensation.
 std::vector<int> far_unknowns(const DenseMatrix& kernel, const std::vector<int>& unknowns);
 
-/// A symmetric positive semidefinite K condensed onto the unknowns Γ of some nodes: the Schur complement S from the trailing block of one
+/// A symmetric positive semidefinite K condensed onto unknowns Γ: the Schur complement S from the trailing block of one
 /// factor, and what is needed to work with it. A kernel R of K (rigid modes) is allowed: with R̂ an orthonormal basis of R on Γ, K + τ R̂R̂ᵀ is factored, so that
 /// M = S + τ R̂R̂ᵀ = L_Γ L_Γᵀ is positive definite and M⁻¹ a generalised inverse of S. Motions in the kernel that vanish on Γ
 /// are held by a diagonal added at as many well-chosen unknowns (fixing_unknowns): it carries nothing for loads in
 /// equilibrium, so S is as it would be.
 class Condensation {
  public:
-  /// Orders and analyses. `last`: nodes of Γ, see order(). `kernel`: K.rows() × modes.
+  /// Orders and analyses. `node`, `last`: groups of unknowns, and which of them are Γ, see order(). `kernel`: K.rows() × modes.
   Condensation(const SparseMatrix& K, const std::vector<int>& node, const std::vector<int>& last,
                const DenseMatrix& kernel, Ordering ordering = Ordering::automatic);
 

@@ -8,7 +8,6 @@
 namespace dotyk::solver {
 namespace {
 
-using algebra::Vector;
 using problem::Problem;
 
 /// Smaller problems are solved by factors.

@@ -54,7 +54,7 @@ class HeldStiffness {
                 const algebra::SparseMatrix* coarser = nullptr);
 
   const problem::RowBasis& basis() const { return basis_; }
-  /// TᵀKT, with zeros where rows couple unknowns.
+  /// The lower triangle of TᵀKT; where rows couple unknowns its pattern has places, with zeros if need be.
   const algebra::SparseMatrix& lower() const { return lower_.size() > 0 ? lower_ : problem_.blocks.front().K; }
   /// `spring`: s, force per displacement, rows; `held`: one flag an unknown of the basis; `added`: to the matrix, lower triangle, of the unknowns of
   /// rows of one point. False where the matrix is not positive definite.

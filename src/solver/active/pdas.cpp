@@ -26,7 +26,7 @@ constexpr int kPatience = 14, kConfirmations = 8;
 
 constexpr std::array<Rescue, 3> kRescues{by_sweeps, by_barrier, by_interior_point};
 
-/// Where the iteration begins if no start is given: where rows follow one another along edges, as few of them end; on unknowns, as an interior point method.
+/// Where the iteration begins if neither rows nor a state are given: where rows follow one another along edges, as few of them end; on unknowns, as an interior point method.
 std::string begin(SetIteration& it) {
   const bool given = it.begins_somewhere();
   if (it.settings.reduced && !it.screws && !given) {
@@ -139,7 +139,16 @@ Result solve(const problem::Problem& problem, const Pdas& settings, Monitor& mon
     begun.from = coarse.state, begun.coarser = coarse.stiffness, begun.nested = false;
     const double before = watch.lap();
     Result result = solve(problem, begun, monitor);
-    if (coarse.meshes > 0) result.reason += text(", begun on ", coarse.meshes, coarse.meshes == 1 ? " coarser mesh" : " coarser meshes");
+    std::string how = coarse.meshes > 0 ? text("begun on ", coarse.meshes, coarse.meshes == 1 ? " coarser mesh" : " coarser meshes") : "";
+    if (begun.from && !result.converged && !monitor.stop()) {
+      begun.from = nullptr, begun.coarser = nullptr;
+      Result again = solve(problem, begun, monitor);
+      if (again.converged) {
+        again.clock.add_solve(result.clock);
+        result = std::move(again), how += " in vain, then at rest";
+      }
+    }
+    if (!how.empty()) result.reason += ", " + how;
     result.clock.iterate += before;
     return result;
   }

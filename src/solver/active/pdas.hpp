@@ -23,11 +23,12 @@ struct Pdas : Settings {
   /// (TR965 remark 1.3).
   bool reduced = true;
   /// Where not reduced, without friction: begun where an interior point method ends (interior_start; not counted among iterations) unless `start`
-  /// says where: for problems with many rows of few unknowns each. The iterates from one start are the same again.
+  /// or `from` says where: for problems with many rows of few unknowns each. The iterates from one start are the same again.
   bool interior = false;
   /// What solves the linear systems of all unknowns; empty: a sparse Cholesky factor.
   MakeSpdSolver linear;
   /// Where coarser meshes are known and neither `start` nor `from` is given, the iteration begins at the solution on the next coarser mesh; see coarse_start().
+  /// Where it comes to no rest from there, once more at rest.
   bool nested = false;
   /// The stiffness of problem::coarser(), where there is one body and that is known; spares multigrid the product. The solve
   /// empties this matrix after its linear solver has been made.

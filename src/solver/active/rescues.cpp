@@ -120,7 +120,7 @@ namespace {
 bool on_all_unknowns(SetIteration& it, double laws) {
   if (!it.is_condensed()) return false;
   Pdas whole = it.settings;
-  whole.reduced = false, whole.start = it.result.active_sets.back();
+  whole.reduced = false, whole.start = it.result.active_sets.back(), whole.from = nullptr;
   InnerMonitor monitor(it.monitor);
   Result found = solve(it.problem, whole, monitor);
   if (!found.converged || !(problem::residual(it.problem, found.state).laws() < laws)) return false;

@@ -98,11 +98,16 @@ SetIteration::SetIteration(const Problem& problem, const Pdas& settings, Monitor
   if (settings.from && !settings.reduced) begin_from(*settings.from);
 }
 
-/// Goes on from `from`, relaxed near the rows that bear there.
+/// Goes on from `from`, relaxed near the rows that bear there, or with one-sided rows closed where they bear, whatever their gaps are.
 void SetIteration::begin_from(const problem::State& from) {
-  const problem::State near = relaxed(problem, stiffness(), from);
-  step->begin(near.u);
-  l = held(linearise(problem, near.lambda, problem.B * near.u - problem.c, rho, {}, nullptr), -problem.c);
+  const std::optional<problem::State> better = relaxed(problem, stiffness(), from);
+  const problem::State& begun = better ? *better : from;
+  Vector places = problem.B * begun.u - problem.c;
+  if (!better)
+    for (const auto& [law, k, r] : problem.scalar_rows())
+      if (law.unilateral()) places[r] = begun.lambda[r] > 0 ? 0 : -1;
+  step->begin(begun.u);
+  l = held(linearise(problem, begun.lambda, places, rho, {}, nullptr), -problem.c);
 }
 
 void SetIteration::place_screws() {

@@ -110,7 +110,7 @@ Result run_held(const problem::Problem& problem, bool by_multigrid, Beginning fr
   pdas.reduced = false;
   Result failed;
   try {
-    return Method(pdas).run(problem, {std::move(from.start)}, monitor);
+    return Method(pdas).run(problem, {std::move(from.start), nullptr, std::move(from.from)}, monitor);
   } catch (const Interrupted&) {
     throw;
   } catch (const std::exception& error) {

@@ -34,8 +34,7 @@ Vector project(const Problem& problem, const Vector& y, const Vector& rho, const
   Eigen::Index point = 0;
   for (const auto& [group, k, first, n] : problem.friction_points()) {
     const auto own = y.segment(first, group.components);
-    const double bound = bounds ? (*bounds)[point++] : group.bound(k, lambda), length = own.norm();
-    lambda.segment(first, group.components) = length <= bound ? Vector(own) : Vector(bound / length * own);
+    lambda.segment(first, group.components) = problem::disc_factor(own.norm(), bounds ? (*bounds)[point++] : group.bound(k, lambda)) * own;
   }
   return lambda;
 }
