@@ -37,11 +37,12 @@ std::vector<int> far_unknowns(const DenseMatrix& kernel, const std::vector<int>&
   const DenseMatrix felt = kernel * here.felt;
   if (farthest(felt) <= kFar * farthest(here.basis)) return {};
   const Vector unfelt = DenseMatrix(kernel * here.unfelt).rowwise().norm();
+  const double vanishes = kVanishes * kernel.lpNorm<Eigen::Infinity>();
   std::vector<char> there(static_cast<std::size_t>(unfelt.size()), 0);
   for (const int i : unknowns) there[i] = 1;
   std::vector<int> candidates, far;
   for (Eigen::Index i = 0; i < unfelt.size(); ++i)
-    if (!there[i] && unfelt[i] <= kVanishes * kernel.lpNorm<Eigen::Infinity>()) candidates.push_back(static_cast<int>(i));
+    if (!there[i] && unfelt[i] <= vanishes) candidates.push_back(static_cast<int>(i));
   if (candidates.empty()) return {};
   for (const int k : fixing_unknowns(DenseMatrix(felt(candidates, Eigen::all)))) far.push_back(candidates[k]);
   return far;

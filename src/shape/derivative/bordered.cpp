@@ -136,7 +136,7 @@ void require_complementary(const Bordered& bordered, const std::vector<int>& wea
   const Eigen::Index n = bordered.unknowns;
   const Vector open = (bordered.A * solved - b).head(n);  // Cy − Fᵀx'
   Vector d = bordered.A.diagonal().head(n).cwiseSqrt();
-  for (double& v : d) v = std::max(v, 1e-7 * d.maxCoeff());
+  d = d.cwiseMax(1e-7 * d.maxCoeff());
   const double size = std::max(d.cwiseProduct(solved.head(n)).lpNorm<Eigen::Infinity>(), b.head(n).cwiseQuotient(d).lpNorm<Eigen::Infinity>());
   for (const int j : weak)
     if (std::min(solved[j] * d[j], open[j] / d[j]) < -kWrong * size)
