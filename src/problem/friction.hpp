@@ -28,7 +28,7 @@ std::shared_ptr<const Friction> tresca(std::vector<double> bounds);
 /// Coulomb: b = μ λ_n. Throws InputError unless each μ is finite and not negative.
 std::shared_ptr<const Friction> coulomb(std::vector<double> coefficients);
 
-/// What the projection onto the disc of radius b multiplies a vector of this length by.
+/// The factor of the projection onto the disc of radius b: π_b(y) = disc_factor(‖y‖, b) y.
 inline double disc_factor(double length, double bound) { return length <= bound ? 1 : bound / length; }
 
 /// The projection onto the disc of radius b, λ = π_b(y), and its derivatives.

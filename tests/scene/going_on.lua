@@ -41,11 +41,13 @@ end
 -- Methods on all unknowns go on from the whole state, named or by default.
 do
   local scenes <const> = include "../../scripts/lib/scale_scenes.lua"
+  local there <const> = pcall(dotyk.solver.multigrid().solve, dotyk.solver.multigrid(), scenes.cube(2, {})) -- is PETSc?
   for _, friction in ipairs{ false, 0.3 } do
-    local it <const> = scenes.cube(20, { friction = friction or nil })
+    local it <const> = scenes.cube(friction and 24 or 20, { friction = friction or nil })
     for name, solve in pairs{ default = dotyk.solve, pdas = function(...) return dotyk.solver.pdas{ reduced = false }:solve(...) end } do
       local solved <const> = solve(it)
       local on <const> = solve(it, { start = solved })
+      if name == "default" and there then check.equal(solved.method, "multigrid") end
       check.that(on.converged and on.iterations < math.max(2, solved.iterations), ("%s: %d iterations after %d"):format(name, on.iterations, solved.iterations))
       check.near(on.energy, solved.energy, 1e-9 * math.abs(solved.energy), name)
     end

@@ -42,9 +42,9 @@ std::vector<int> far_unknowns(const DenseMatrix& kernel, const std::vector<int>&
   for (const int i : unknowns) there[i] = 1;
   std::vector<int> candidates, far;
   for (Eigen::Index i = 0; i < unfelt.size(); ++i)
-    if (!there[i] && unfelt[i] <= vanishes) candidates.push_back(static_cast<int>(i));
-  if (candidates.empty()) return {};
-  for (const int k : fixing_unknowns(DenseMatrix(felt(candidates, Eigen::all)))) far.push_back(candidates[k]);
+    if (unfelt[i] <= vanishes) candidates.push_back(static_cast<int>(i));
+  for (const int k : fixing_unknowns(DenseMatrix(felt(candidates, Eigen::all))))  // Γ's own among the candidates make the columns independent
+    if (!there[candidates[k]]) far.push_back(candidates[k]);
   return far;
 }
 

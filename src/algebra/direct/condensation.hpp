@@ -8,9 +8,9 @@
 
 namespace dotyk::algebra {
 
-/// Unknowns to add to a Γ of `unknowns` where motions of the kernel that Γ feels move the body more than ten times as far, as rotations about a small contact
-/// part do: digits would be lost. They are of those outside Γ that move with Γ's motions alone, so that Γ feels no more motions than before, and lie
-/// far apart, as fixing_unknowns() says. Mostly none. `kernel`: as for Condensation.
+/// Unknowns outside Γ (`unknowns`) to add to it where a motion of the kernel moves the body more than ten times as far as Γ, as a rotation about a small
+/// contact part does: digits would be lost. Motions that vanish on Γ vanish on them, so that Γ feels no more motions than before. Chosen by
+/// fixing_unknowns(), mostly none. `kernel`: as for Condensation.
 std::vector<int> far_unknowns(const DenseMatrix& kernel, const std::vector<int>& unknowns);
 
 /// A symmetric positive semidefinite K condensed onto unknowns Γ: the Schur complement S from the trailing block of one

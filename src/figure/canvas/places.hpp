@@ -14,7 +14,7 @@ public:
   void add(const std::vector<Point>& curve, const Box& inside);
   void add(const Box& box);
   bool meets(const Box& box) const;
-  bool clear_of(const Box& box, double margin) const;
+  bool clear_of(const Box& box, double margin) const;  // is no point nearer than margin?
   double distance(const Box& box) const;  // to the nearest point, 0 inside
 
 private:

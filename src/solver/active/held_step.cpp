@@ -72,7 +72,7 @@ class HeldStep final : public Step {
     refine();
     return u_.allFinite() && tell(lambda, x);
   }
-  void go_back(double part) override { u_ = before_ + static_cast<long double>(part) * (u_ - before_), forget(); }
+  void go_back(double part) override { u_ = part == 0 ? before_ : LongVector(before_ + static_cast<long double>(part) * (u_ - before_)), forget(); }
   Vector recover() override { return u_.cast<double>(); }
 
  private:

@@ -26,7 +26,8 @@ constexpr int kPatience = 14, kConfirmations = 8;
 
 constexpr std::array<Rescue, 3> kRescues{by_sweeps, by_barrier, by_interior_point};
 
-/// Where the iteration begins if neither rows nor a state are given: where rows follow one another along edges, as few of them end; on unknowns, as an interior point method.
+/// Where neither rows nor a state are given: condensed, begins at a solution on a part of the rows (nested_start); on all unknowns, if
+/// settings.interior, where an interior point method ends. Returns what it did, for the reason.
 std::string begin(SetIteration& it) {
   const bool given = it.begins_somewhere();
   if (it.settings.reduced && !it.screws && !given) {
@@ -127,31 +128,43 @@ void come_to_rest(SetIteration& it) {
   while (it.step->sharpen(it.lambda, it.x)) {}
 }
 
+/// From the solution on coarser meshes. Where that does not converge, once more from rest, with the iterations that are left.
+Result solve_nested(const problem::Problem& problem, Pdas settings, Monitor& monitor) {
+  Stopwatch watch;
+  const CoarseStart coarse = coarse_start(problem, settings, monitor);
+  settings.from = coarse.state, settings.coarser = coarse.stiffness, settings.nested = false;
+  const double before = watch.lap();
+  Result result = solve(problem, settings, monitor);
+  result.clock.iterate += before;
+  if (coarse.meshes > 0) result.reason += text(", begun on ", coarse.meshes, coarse.meshes == 1 ? " coarser mesh" : " coarser meshes");
+  settings.max_iterations -= result.iterations;
+  if (!coarse.state || result.converged || settings.max_iterations <= 0 || monitor.stop()) return result;
+  settings.from = nullptr, settings.coarser = nullptr;
+  monitor.phase("not converged from the coarser meshes: once more from rest");
+  watch.lap();
+  try {
+    Result again = solve(problem, settings, monitor);
+    if (again.converged) {
+      again.clock.add_solve(result.clock);
+      again.reason += "; before, " + result.reason;
+      return again;
+    }
+    result.reason += "; from rest: " + again.reason;
+  } catch (const Interrupted&) {
+    result.reason += "; interrupted before it was solved from rest";
+  } catch (const NotSolved& error) {
+    result.reason += text("; from rest: ", error.what());
+  }
+  result.clock.iterate += watch.lap();
+  return result;
+}
+
 }  // namespace
 
 Result solve(const problem::Problem& problem, const Pdas& settings, Monitor& monitor) {
   if (settings.reduced || settings.step) require_frictionless(problem, "pdas");
   require_springs(problem, "pdas");
-  if (settings.nested && settings.start.empty() && !settings.from) {
-    Stopwatch watch;
-    const CoarseStart coarse = coarse_start(problem, settings, monitor);
-    Pdas begun = settings;
-    begun.from = coarse.state, begun.coarser = coarse.stiffness, begun.nested = false;
-    const double before = watch.lap();
-    Result result = solve(problem, begun, monitor);
-    std::string how = coarse.meshes > 0 ? text("begun on ", coarse.meshes, coarse.meshes == 1 ? " coarser mesh" : " coarser meshes") : "";
-    if (begun.from && !result.converged && !monitor.stop()) {
-      begun.from = nullptr, begun.coarser = nullptr;
-      Result again = solve(problem, begun, monitor);
-      if (again.converged) {
-        again.clock.add_solve(result.clock);
-        result = std::move(again), how += " in vain, then at rest";
-      }
-    }
-    if (!how.empty()) result.reason += ", " + how;
-    result.clock.iterate += before;
-    return result;
-  }
+  if (settings.nested && settings.start.empty() && !settings.from) return solve_nested(problem, settings, monitor);
   SetIteration it(problem, settings, monitor);
   Stopwatch iterating;
   const std::string begun = begin(it);

@@ -28,7 +28,7 @@ struct Pdas : Settings {
   /// What solves the linear systems of all unknowns; empty: a sparse Cholesky factor.
   MakeSpdSolver linear;
   /// Where coarser meshes are known and neither `start` nor `from` is given, the iteration begins at the solution on the next coarser mesh; see coarse_start().
-  /// Where it comes to no rest from there, once more at rest.
+  /// Where that does not converge, it begins once more from zero displacement, with the iterations that are left.
   bool nested = false;
   /// The stiffness of problem::coarser(), where there is one body and that is known; spares multigrid the product. The solve
   /// empties this matrix after its linear solver has been made.

@@ -21,7 +21,8 @@ class SetIteration {
   /// With friction `confirmed` means that the state is off its laws by tol at most.
   enum class End { confirmed, misplaced, cycle, singular, exhausted, interrupted };
 
-  /// From the rows that the settings' start names, else those that touch at rest. Throws InputError where a body is not held, naming its motion.
+  /// On all unknowns from the settings' state `from`, where there is one; else from the rows that `start` names, else from those that touch at rest.
+  /// Throws InputError where a body is not held, naming its motion.
   SetIteration(const problem::Problem& problem, const Pdas& settings, Monitor& monitor);
 
   /// At most so many steps; fewer where they crawl after more than `patience`.

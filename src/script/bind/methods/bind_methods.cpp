@@ -286,7 +286,8 @@ void bind_methods(Library& library) {
                "of mesh:refined and of second order; below the coarsest, or where there are none, aggregates of unknowns.",
        .example = "local s = dotyk.solver.multigrid{}:solve(scene)\nprint(s.multigrid.levels, s.multigrid.cg, s.multigrid.newton)"},
       {key::choice<Levels>("levels", {{"meshes", Levels::meshes}, {"aggregates", Levels::aggregates}}, "what levels are made of").otherwise("meshes, where they are known"),
-       key::boolean("nested", "begin where the solution on the next coarser mesh is, found the same way").into<Multigrid>([](Multigrid& m) -> bool& { return m.nested; })},
+       key::boolean("nested", "begin at the solution on the next coarser mesh, found the same way and relaxed near the rows that bear; where that does not converge, once more "
+                                "from rest").into<Multigrid>([](Multigrid& m) -> bool& { return m.nested; })},
       100, [](Multigrid& m, Call& call) {
         if (call.has("levels")) m.linear = solver::multigrid(call.choice<Levels>("levels"));
         return text(call.has("levels") ? "levels = " + call.text("levels") + ", " : "", "nested = ", m.nested ? "true" : "false");

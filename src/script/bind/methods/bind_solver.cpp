@@ -92,8 +92,9 @@ Key start_key() {
   return key::either("start",
                      {key::object<Solution>("", "a solution of a like scene, usually on a coarser mesh"),
                       key::list("", key::integer("", ""), "numbers of the rows (contact nodes, in order) that start closed")},
-                     "where to start: a solution, of which all methods but interior_point and feti take over the whole state where it has the same meshes and "
-                     "contacts; otherwise pdas, newton and active_set take over the contact status of nearest nodes; or a list of the closed rows");
+                     "where to start: a solution. Where it has the same meshes and contacts, multigrid, pdas on all unknowns and the methods on the contact boundary "
+                     "take over its state, on all unknowns relaxed near the rows that bear; otherwise pdas, newton and active_set take over the contact status of "
+                     "nearest nodes; or a list of the closed rows");
 }
 
 int count_rows(const Scene& scene) {
