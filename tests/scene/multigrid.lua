@@ -127,8 +127,8 @@ do
   local steep <const> = scenes.blocks(16, { friction = 1.2, contrast = 1000 })
   check.that(S.multigrid{}:solve(steep).converged, "from rest")
   local starts = 0
-  local function watch(info)
-    if info.iteration == 1 then starts = starts + 1 end
+  local function watch(iteration)
+    if iteration == 1 then starts = starts + 1 end
     return starts < 2
   end
   local stopped <const> = S.multigrid{ on_iteration = watch }:solve(steep)
