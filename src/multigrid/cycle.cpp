@@ -13,19 +13,6 @@ constexpr int kMostIterations = 1000;
 /// After so many iterations their rate of convergence is trusted to foretell how many there will be.
 constexpr int kTelling = 10;
 
-/// Sweeps of Gauss and Seidel, each rank's own, `type` their direction: forward before the coarse correction and backward after it make the
-/// cycle symmetric.
-void make_smoother(KSP ksp, Mat matrix, MatSORType type, int sweeps) {
-  PC pc = nullptr;
-  check(KSPSetOperators(ksp, matrix, matrix));
-  check(KSPSetType(ksp, KSPRICHARDSON));
-  check(KSPSetNormType(ksp, KSP_NORM_NONE));
-  check(KSPSetTolerances(ksp, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT, sweeps));
-  check(KSPGetPC(ksp, &pc));
-  check(PCSetType(pc, PCSOR));
-  check(PCSORSetSymmetric(pc, type));
-}
-
 struct Ending {
   double first, residual;  // residuals: the first one, and at which to end
   double most;             // iterations that are worth while; those made already are spent either way
@@ -71,36 +58,59 @@ Cycle::Cycle(const Ranks& ranks, Piece piece, const Change& first) : ranks_(rank
 }
 
 void Cycle::make() {
-  check(KSPCreate(ranks_.comm(), ksp_.put()));
-  check(KSPSetOperators(ksp_, hierarchy_.matrix(0), hierarchy_.matrix(0)));
-  check(KSPSetType(ksp_, KSPCG));
-  check(KSPSetNormType(ksp_, KSP_NORM_UNPRECONDITIONED));
-  PC pc = nullptr;
-  check(KSPGetPC(ksp_, &pc));
-  check(PCSetType(pc, PCMG));
-  check(PCMGSetLevels(pc, levels(), nullptr));
-  check(PCMGSetGalerkin(pc, PC_MG_GALERKIN_EXTERNAL));
-  KSP ksp = nullptr;
   const int twice = first_swept_twice();
   for (int l = 0; l + 1 < levels(); ++l) {
-    const int theirs = levels() - 1 - l;  // PETSc counts from the coarsest
-    const int sweeps = l >= twice ? 2 : 1;
-    check(PCMGSetInterpolation(pc, theirs, hierarchy_.interpolation(l)));
-    check(PCMGGetSmootherDown(pc, theirs, &ksp));
-    make_smoother(ksp, hierarchy_.matrix(l), SOR_LOCAL_FORWARD_SWEEP, sweeps);
-    if (l == 0) finest_.attach(ksp, true);
-    check(PCMGGetSmootherUp(pc, theirs, &ksp));
-    make_smoother(ksp, hierarchy_.matrix(l), SOR_LOCAL_BACKWARD_SWEEP, sweeps);
-    if (l == 0) finest_.attach(ksp, false);
-    check(KSPSetInitialGuessNonzero(ksp, PETSC_TRUE));
+    Level& level = all_.emplace_back(Level{Sweeps(hierarchy_.matrix(l)), l >= twice ? 2 : 1, {}, {}, {}, {}});
+    check(MatCreateVecs(hierarchy_.matrix(l), level.left.put(), level.change.put()));
+    check(MatCreateVecs(hierarchy_.matrix(l + 1), level.coarse.put(), level.correction.put()));
   }
-  check(PCMGGetCoarseSolve(pc, &ksp));
+  check(KSPCreate(ranks_.comm(), coarsest_.put()));
   constexpr PetscInt kSmall = 2000;  // for PETSc's own factor, which takes singular matrices, and empty ones
   const Mat coarsest = hierarchy_.matrix(levels() - 1);
   PetscInt size = 0;
   check(MatGetSize(coarsest, &size, nullptr));
-  if (size <= kSmall) factor_on_each(ksp, coarsest, MAT_SHIFT_POSITIVE_DEFINITE, MATSOLVERPETSC);
-  else factor_on_each(ksp, coarsest, MAT_SHIFT_NONE, MATSOLVERCHOLMOD);
+  if (size <= kSmall) factor_on_each(coarsest_, coarsest, MAT_SHIFT_POSITIVE_DEFINITE, MATSOLVERPETSC);
+  else factor_on_each(coarsest_, coarsest, MAT_SHIFT_NONE, MATSOLVERCHOLMOD);
+  check(KSPCreate(ranks_.comm(), ksp_.put()));
+  check(KSPSetType(ksp_, KSPCG));
+  check(KSPSetNormType(ksp_, KSP_NORM_UNPRECONDITIONED));
+  PC pc = nullptr;
+  check(KSPGetPC(ksp_, &pc));
+  check(PCSetType(pc, PCSHELL));
+  check(PCShellSetContext(pc, this));
+  check(PCShellSetApply(pc, precondition));
+}
+
+PetscErrorCode Cycle::precondition(PC shell, Vec b, Vec x) {
+  void* self = nullptr;
+  PetscCall(PCShellGetContext(shell, &self));
+  try {
+    static_cast<Cycle*>(self)->descend(0, b, x);
+  } catch (const std::exception& error) {
+    SETERRQ(PETSC_COMM_SELF, PETSC_ERR_LIB, "%s", error.what());
+  }
+  return 0;
+}
+
+void Cycle::descend(std::size_t l, Vec b, Vec x) {
+  if (l == all_.size()) return check(KSPSolve(coarsest_, b, x));
+  Level& level = all_[l];
+  const Mat A = hierarchy_.matrix(static_cast<int>(l)), P = hierarchy_.interpolation(static_cast<int>(l));
+  const bool solved = l == 0 && shared_.any();
+  level.sweeps.forward(b, x, level.left);
+  for (int k = 1; k < level.count; ++k) {
+    level.sweeps.forward(level.left, level.change, level.left);
+    check(VecAXPY(x, 1, level.change));
+  }
+  if (solved) {
+    shared_.solve(b, x);
+    check(MatResidual(A, b, x, level.left));
+  }
+  check(MatMultTranspose(P, level.left, level.coarse));
+  descend(l + 1, level.coarse, level.correction);
+  check(MatMultAdd(P, level.correction, x, x));
+  if (solved) shared_.solve(b, x);
+  for (int k = 0; k < level.count; ++k) level.sweeps.backward(b, x);
 }
 
 /// A second sweep costs little where a level has few unknowns. On the second coarser mesh and below (1/64 of the unknowns) it saves a tenth of the
@@ -116,27 +126,20 @@ int Cycle::first_swept_twice() const {
   return std::min(hierarchy_.meshes(), unknowns < kFew * ranks_.count() ? 1 : 2);
 }
 
-void Cycle::damp() {
-  PC pc = nullptr, sor = nullptr;
-  check(KSPGetPC(ksp_, &pc));
-  for (int l = 1; l + 1 < levels(); ++l) {
-    const double omega = damping(hierarchy_.matrix(l));
-    for (const auto side : {PCMGGetSmootherDown, PCMGGetSmootherUp}) {
-      KSP ksp = nullptr;
-      check(side(pc, levels() - 1 - l, &ksp));
-      check(KSPGetPC(ksp, &sor));
-      check(PCSORSetOmega(sor, omega));
-    }
-  }
-}
-
 bool Cycle::set(const Change& change) {
   if (!hierarchy_.set(change)) return false;
-  damp();
-  if (!ranks_.all(finest_.set(hierarchy_.matrix(0), change.shared))) return false;
+  double of_sweeps = 0;
+  for (std::size_t l = 0; l < all_.size(); ++l) {
+    const Mat A = hierarchy_.matrix(static_cast<int>(l));
+    all_[l].sweeps.set(A, damping(A, l == 0 ? change.shared : std::vector<int>()));
+    of_sweeps += all_[l].sweeps.bytes();
+  }
+  if (!ranks_.all(shared_.set(hierarchy_.matrix(0), change.shared))) return false;
   check(KSPSetOperators(ksp_, hierarchy_.matrix(0), hierarchy_.matrix(0)));
-  if (!ranks_.all(set_up(ksp_))) return false;
-  bytes_ = ranks_.sum(hierarchy_.bytes());
+  const Mat coarsest = hierarchy_.matrix(levels() - 1);
+  check(KSPSetOperators(coarsest_, coarsest, coarsest));
+  if (!ranks_.all(set_up(coarsest_))) return false;
+  bytes_ = ranks_.sum(hierarchy_.bytes() + of_sweeps);
   return true;
 }
 

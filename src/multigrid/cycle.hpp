@@ -5,8 +5,9 @@
 #include <vector>
 
 #include "base/monitor.hpp"
-#include "multigrid/finest_smoother.hpp"
 #include "multigrid/hierarchy.hpp"
+#include "multigrid/shared_rows.hpp"
+#include "multigrid/sweeps.hpp"
 
 namespace dotyk::multigrid {
 
@@ -31,14 +32,25 @@ class Cycle {
   double bytes() const { return bytes_; }  ///< of all ranks, after the last set()
 
  private:
+  /// All but the coarsest.
+  struct Level {
+    Sweeps sweeps;
+    int count;                  ///< of sweeps before the coarse correction, and after it
+    OwnedVec left, change;
+    OwnedVec coarse, correction;  ///< of the next level
+  };
+
+  static PetscErrorCode precondition(PC shell, Vec b, Vec x);
+  /// x = M⁻¹ b, M the V-cycle from this level on.
+  void descend(std::size_t level, Vec b, Vec x);
   void make();
   int first_swept_twice() const;  ///< the level
-  void damp();  ///< sets the relaxation of the smoothers of coarser levels
 
   const Ranks ranks_;
   Hierarchy hierarchy_;
-  FinestSmoother finest_;
-  OwnedKsp ksp_;
+  std::vector<Level> all_;
+  SharedRows shared_;
+  OwnedKsp ksp_, coarsest_;
   OwnedVec b_, x_;
   double bytes_ = 0;
 };

@@ -6,6 +6,7 @@
 #include <random>
 #include <utility>
 
+#include "multigrid/border.hpp"
 #include "multigrid/local_rows.hpp"
 
 namespace dotyk::multigrid {
@@ -16,47 +17,34 @@ namespace {
 /// All other rows are zero.
 class Between {
  public:
-  Between(Mat A, const std::vector<int>& left_out) : rows_(A) {
-    Owned<IS, ISDestroy> columns;
+  Between(Mat A, const std::vector<int>& left_out) : border_(A) {
     check(MatCreateVecs(A, all_.put(), nullptr));
     check(VecSet(all_, 0));
-    check(ISCreateGeneral(PETSC_COMM_SELF, rows_.others_count, rows_.others, PETSC_COPY_VALUES, columns.put()));
-    check(VecCreateSeq(PETSC_COMM_SELF, rows_.others_count, theirs_.put()));
-    check(VecScatterCreate(all_, columns, theirs_, nullptr, fetch_.put()));
-    auto out = left_out.begin();
-    for (int row = 0; row < rows_.count(); ++row) {
-      if (out != left_out.end() && *out == row) ++out;
-      else if (rows_.other->starts[row] < rows_.other->starts[row + 1])
-        border_.push_back(row), scale_.push_back(1 / std::sqrt(std::abs(*rows_.find(row, rows_.first_row + row))));
-    }
+    const LocalRows rows(A);
+    for (std::size_t k = 0; k < border_.rows().size(); ++k)
+      if (const int row = border_.rows()[k]; !std::ranges::binary_search(left_out, row))
+        kept_.push_back(k), scale_.push_back(1 / std::sqrt(std::abs(*rows.find(row, rows.first_row + row))));
   }
 
-  std::size_t count() const { return border_.size(); }
+  std::size_t count() const { return kept_.size(); }
 
   /// Collective, as the constructor.
   std::vector<double> times(const std::vector<double>& v) {
     PetscScalar* put = nullptr;
-    const PetscScalar* theirs = nullptr;
     check(VecGetArray(all_, &put));
-    for (std::size_t k = 0; k < count(); ++k) put[border_[k]] = scale_[k] * v[k];
+    for (std::size_t k = 0; k < count(); ++k) put[border_.rows()[kept_[k]]] = scale_[k] * v[k];
     check(VecRestoreArray(all_, &put));
-    check(VecScatterBegin(fetch_, all_, theirs_, INSERT_VALUES, SCATTER_FORWARD));
-    check(VecScatterEnd(fetch_, all_, theirs_, INSERT_VALUES, SCATTER_FORWARD));
-    check(VecGetArrayRead(theirs_, &theirs));
-    std::vector<double> product(count(), 0.0);
-    for (std::size_t k = 0; k < count(); ++k)
-      for (int e = rows_.other->starts[border_[k]]; e < rows_.other->starts[border_[k] + 1]; ++e)
-        product[k] += scale_[k] * rows_.other->values[e] * theirs[rows_.other->columns[e]];
-    check(VecRestoreArrayRead(theirs_, &theirs));
-    return product;
+    const std::vector<double>& product = border_.times(all_);
+    std::vector<double> kept;
+    for (std::size_t k = 0; k < count(); ++k) kept.push_back(scale_[k] * product[kept_[k]]);
+    return kept;
   }
 
  private:
-  const LocalRows rows_;
-  std::vector<int> border_;
+  Border border_;
+  std::vector<std::size_t> kept_;  // of its rows
   std::vector<double> scale_;
-  OwnedVec all_, theirs_;
-  Owned<VecScatter, VecScatterDestroy> fetch_;
+  OwnedVec all_;
 };
 
 /// The greatest eigenvalue of a symmetric tridiagonal matrix T, or 0 if that is negative. By bisection: T − x has only negative pivots exactly if x is
