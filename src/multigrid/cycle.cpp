@@ -1,5 +1,4 @@
 #include "multigrid/cycle.hpp"
-#include "multigrid/damping.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -53,7 +52,6 @@ PetscErrorCode ended(KSP, PetscInt iteration, PetscReal residual, KSPConvergedRe
 }  // namespace
 
 Cycle::Cycle(const Ranks& ranks, Piece piece, const Change& first) : ranks_(ranks), hierarchy_(ranks, std::move(piece), first) {
-  check(MatCreateVecs(hierarchy_.matrix(0), x_.put(), b_.put()));
   make();
 }
 
@@ -61,17 +59,22 @@ void Cycle::make() {
   const int twice = first_swept_twice();
   for (int l = 0; l + 1 < levels(); ++l) {
     Level& level = all_.emplace_back(Level{Sweeps(hierarchy_.matrix(l)), l >= twice ? 2 : 1, {}, {}, {}, {}});
-    check(MatCreateVecs(hierarchy_.matrix(l), level.left.put(), level.change.put()));
-    check(MatCreateVecs(hierarchy_.matrix(l + 1), level.coarse.put(), level.correction.put()));
+    check(MatCreateVecs(hierarchy_.interpolation(l), level.coarse.put(), level.left.put()));
+    check(VecDuplicate(level.coarse, level.correction.put()));
+    check(VecDuplicate(level.left, level.change.put()));
   }
   check(KSPCreate(ranks_.comm(), coarsest_.put()));
-  constexpr PetscInt kSmall = 2000;  // for PETSc's own factor, which takes singular matrices, and empty ones
-  const Mat coarsest = hierarchy_.matrix(levels() - 1);
-  PetscInt size = 0;
-  check(MatGetSize(coarsest, &size, nullptr));
-  if (size <= kSmall) factor_on_each(coarsest_, coarsest, MAT_SHIFT_POSITIVE_DEFINITE, MATSOLVERPETSC);
-  else factor_on_each(coarsest_, coarsest, MAT_SHIFT_NONE, MATSOLVERCHOLMOD);
+  constexpr double kSmall = 2000;  // for PETSc's own factor, which takes singular matrices, and empty ones
+  const HalfMatrix& coarsest = hierarchy_.matrix(levels() - 1);
+  last_ = copied(ranks_, coarsest.full(), coarsest.rows());
+  if (ranks_.sum(coarsest.rows()) <= kSmall) factor_on_each(coarsest_, last_, MAT_SHIFT_POSITIVE_DEFINITE, MATSOLVERPETSC);
+  else factor_on_each(coarsest_, last_, MAT_SHIFT_NONE, MATSOLVERCHOLMOD);
+  const int own = hierarchy_.matrix(0).rows();
+  check(MatCreateShell(ranks_.comm(), own, own, PETSC_DETERMINE, PETSC_DETERMINE, this, finest_.put()));
+  check(MatShellSetOperation(finest_, MATOP_MULT, reinterpret_cast<void (*)()>(multiply)));
+  check(MatCreateVecs(finest_, x_.put(), b_.put()));
   check(KSPCreate(ranks_.comm(), ksp_.put()));
+  check(KSPSetOperators(ksp_, finest_, finest_));
   check(KSPSetType(ksp_, KSPCG));
   check(KSPSetNormType(ksp_, KSP_NORM_UNPRECONDITIONED));
   PC pc = nullptr;
@@ -81,73 +84,94 @@ void Cycle::make() {
   check(PCShellSetApply(pc, precondition));
 }
 
-PetscErrorCode Cycle::precondition(PC shell, Vec b, Vec x) {
-  void* self = nullptr;
-  PetscCall(PCShellGetContext(shell, &self));
+namespace {
+
+/// Calls work for PETSc, which knows no exceptions.
+template <class Work>
+PetscErrorCode called_by_petsc(const Work& work) {
   try {
-    static_cast<Cycle*>(self)->descend(0, b, x);
+    work();
   } catch (const std::exception& error) {
     SETERRQ(PETSC_COMM_SELF, PETSC_ERR_LIB, "%s", error.what());
   }
   return 0;
 }
 
+}  // namespace
+
+PetscErrorCode Cycle::multiply(Mat shell, Vec x, Vec y) {
+  void* self = nullptr;
+  PetscCall(MatShellGetContext(shell, &self));
+  return called_by_petsc([&] { static_cast<Cycle*>(self)->hierarchy_.matrix(0).times(ReadNumbers(x), Numbers(y)); });
+}
+
+PetscErrorCode Cycle::precondition(PC shell, Vec b, Vec x) {
+  void* self = nullptr;
+  PetscCall(PCShellGetContext(shell, &self));
+  return called_by_petsc([&] { static_cast<Cycle*>(self)->descend(0, b, x); });
+}
+
 void Cycle::descend(std::size_t l, Vec b, Vec x) {
   if (l == all_.size()) return check(KSPSolve(coarsest_, b, x));
   Level& level = all_[l];
-  const Mat A = hierarchy_.matrix(static_cast<int>(l)), P = hierarchy_.interpolation(static_cast<int>(l));
+  const Mat P = hierarchy_.interpolation(static_cast<int>(l));
   const bool solved = l == 0 && shared_.any();
-  level.sweeps.forward(b, x, level.left);
+  level.sweeps.forward(ReadNumbers(b), Numbers(x), Numbers(level.left));
   for (int k = 1; k < level.count; ++k) {
-    level.sweeps.forward(level.left, level.change, level.left);
+    {
+      Numbers left(level.left);
+      level.sweeps.forward(left, Numbers(level.change), left);
+    }
     check(VecAXPY(x, 1, level.change));
   }
   if (solved) {
     shared_.solve(b, x);
-    check(MatResidual(A, b, x, level.left));
+    hierarchy_.matrix(0).times(ReadNumbers(x), Numbers(level.left));
+    check(VecAYPX(level.left, -1, b));
   }
   check(MatMultTranspose(P, level.left, level.coarse));
   descend(l + 1, level.coarse, level.correction);
   check(MatMultAdd(P, level.correction, x, x));
   if (solved) shared_.solve(b, x);
-  for (int k = 0; k < level.count; ++k) level.sweeps.backward(b, x);
+  for (int k = 0; k < level.count; ++k) level.sweeps.backward(ReadNumbers(b), Numbers(x));
 }
 
 /// A second sweep costs little where a level has few unknowns. On the second coarser mesh and below (1/64 of the unknowns) it saves a tenth of the
 /// iterations with friction: 28 instead of 31 on a cube of 64³ cells. Where aggregates follow the coarsest mesh, they converge more slowly than meshes, and a
 /// second sweep from that mesh on saves a fifth: 22 instead of 27 on 76³ cells, with aggregates below 19³. During a sweep a rank uses the values that other
 /// ranks had before it. Where each rank has few unknowns, most of them are coupled to other ranks, and the second sweep begins one level earlier.
-int Cycle::first_swept_twice() const {
-  constexpr PetscInt kFew = 20'000;  // unknowns of a rank
+int Cycle::first_swept_twice() {
+  constexpr double kFew = 20'000;  // unknowns of a rank
   if (hierarchy_.meshes() == 0) return levels();  // none: aggregates alone
   if (ranks_.alone()) return std::min(hierarchy_.meshes(), 2);
-  PetscInt unknowns = 0;
-  check(MatGetSize(hierarchy_.matrix(1), &unknowns, nullptr));
-  return std::min(hierarchy_.meshes(), unknowns < kFew * ranks_.count() ? 1 : 2);
+  return std::min(hierarchy_.meshes(), ranks_.sum(hierarchy_.matrix(1).rows()) < kFew * ranks_.count() ? 1 : 2);
+}
+
+void Cycle::take_coarsest() {
+  HalfMatrix& coarsest = hierarchy_.matrix(levels() - 1);
+  {
+    const LocalRows rows(last_);
+    for (int row = 0; row < rows.count(); ++row) rows.for_each(row, [&](int column, double& number) { number = *coarsest.find(row, column); });
+  }
+  tell_changed(last_);
 }
 
 bool Cycle::set(const Change& change) {
   if (!hierarchy_.set(change)) return false;
   double of_sweeps = 0;
   for (std::size_t l = 0; l < all_.size(); ++l) {
-    const Mat A = hierarchy_.matrix(static_cast<int>(l));
-    all_[l].sweeps.set(A, damping(A, l == 0 ? change.shared : std::vector<int>()));
+    all_[l].sweeps.set(damping(hierarchy_.matrix(static_cast<int>(l)), l == 0 ? change.shared : std::vector<int>()));
     of_sweeps += all_[l].sweeps.bytes();
   }
   if (!ranks_.all(shared_.set(hierarchy_.matrix(0), change.shared))) return false;
-  check(KSPSetOperators(ksp_, hierarchy_.matrix(0), hierarchy_.matrix(0)));
-  const Mat coarsest = hierarchy_.matrix(levels() - 1);
-  check(KSPSetOperators(coarsest_, coarsest, coarsest));
+  take_coarsest();
   if (!ranks_.all(set_up(coarsest_))) return false;
   bytes_ = ranks_.sum(hierarchy_.bytes() + of_sweeps);
   return true;
 }
 
 Cycle::Solution Cycle::solve(const std::vector<double>& b, double tolerance, double most, Monitor* monitor) {
-  PetscScalar* in = nullptr;
-  check(VecGetArrayWrite(b_, &in));
-  std::copy(b.begin(), b.end(), in);
-  check(VecRestoreArrayWrite(b_, &in));
+  std::copy(b.begin(), b.end(), static_cast<double*>(Numbers(b_)));
   PetscReal norm = 0;
   check(VecNorm(b_, NORM_2, &norm));
   Ending ending{norm, tolerance * norm, most, monitor, ranks_};
@@ -160,11 +184,8 @@ Cycle::Solution Cycle::solve(const std::vector<double>& b, double tolerance, dou
   solution.thrown = ending.thrown;
   solution.found = reason > 0;
   const auto numbers = [&](Vec of) {
-    const PetscScalar* out = nullptr;
-    check(VecGetArrayRead(of, &out));
-    const std::vector<double> own(out, out + b.size());
-    check(VecRestoreArrayRead(of, &out));
-    return own;
+    const ReadNumbers own(of);
+    return std::vector<double>(own + 0, own + b.size());
   };
   solution.x = numbers(x_);
   Vec left = nullptr;

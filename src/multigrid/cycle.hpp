@@ -35,21 +35,24 @@ class Cycle {
   /// All but the coarsest.
   struct Level {
     Sweeps sweeps;
-    int count;                  ///< of sweeps before the coarse correction, and after it
+    int count;  ///< of sweeps before the coarse correction, and after it
     OwnedVec left, change;
     OwnedVec coarse, correction;  ///< of the next level
   };
 
+  static PetscErrorCode multiply(Mat shell, Vec x, Vec y);
   static PetscErrorCode precondition(PC shell, Vec b, Vec x);
   /// x = M⁻¹ b, M the V-cycle from this level on.
   void descend(std::size_t level, Vec b, Vec x);
   void make();
-  int first_swept_twice() const;  ///< the level
+  int first_swept_twice();  ///< the level
+  void take_coarsest();     ///< numbers
 
   const Ranks ranks_;
   Hierarchy hierarchy_;
   std::vector<Level> all_;
   SharedRows shared_;
+  OwnedMat finest_, last_;  ///< the first one's products, the coarsest one's full rows
   OwnedKsp ksp_, coarsest_;
   OwnedVec b_, x_;
   double bytes_ = 0;

@@ -1,13 +1,10 @@
-#include "multigrid/damping.hpp"
+#include "multigrid/sweeps.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <random>
 #include <utility>
-
-#include "multigrid/border.hpp"
-#include "multigrid/local_rows.hpp"
 
 namespace dotyk::multigrid {
 
@@ -17,34 +14,26 @@ namespace {
 /// All other rows are zero.
 class Between {
  public:
-  Between(Mat A, const std::vector<int>& left_out) : border_(A) {
-    check(MatCreateVecs(A, all_.put(), nullptr));
-    check(VecSet(all_, 0));
-    const LocalRows rows(A);
-    for (std::size_t k = 0; k < border_.rows().size(); ++k)
-      if (const int row = border_.rows()[k]; !std::ranges::binary_search(left_out, row))
-        kept_.push_back(k), scale_.push_back(1 / std::sqrt(std::abs(*rows.find(row, rows.first_row + row))));
+  Between(HalfMatrix& A, const std::vector<int>& left_out) : A_(A), all_(static_cast<std::size_t>(A.rows()), 0.0), product_(all_) {
+    for (const int row : A.border_rows())
+      if (!std::ranges::binary_search(left_out, row)) border_.push_back(row), scale_.push_back(1 / std::sqrt(std::abs(A.diagonal(row))));
   }
 
-  std::size_t count() const { return kept_.size(); }
+  std::size_t count() const { return border_.size(); }
 
-  /// Collective, as the constructor.
+  /// Collective.
   std::vector<double> times(const std::vector<double>& v) {
-    PetscScalar* put = nullptr;
-    check(VecGetArray(all_, &put));
-    for (std::size_t k = 0; k < count(); ++k) put[border_.rows()[kept_[k]]] = scale_[k] * v[k];
-    check(VecRestoreArray(all_, &put));
-    const std::vector<double>& product = border_.times(all_);
-    std::vector<double> kept;
-    for (std::size_t k = 0; k < count(); ++k) kept.push_back(scale_[k] * product[kept_[k]]);
-    return kept;
+    for (std::size_t k = 0; k < count(); ++k) all_[border_[k]] = scale_[k] * v[k];
+    A_.times_others(all_.data(), [&](int row, double number) { product_[row] = number; });
+    std::vector<double> product;
+    for (std::size_t k = 0; k < count(); ++k) product.push_back(scale_[k] * product_[border_[k]]);
+    return product;
   }
 
  private:
-  Border border_;
-  std::vector<std::size_t> kept_;  // of its rows
-  std::vector<double> scale_;
-  OwnedVec all_;
+  HalfMatrix& A_;
+  std::vector<int> border_;
+  std::vector<double> scale_, all_, product_;  // the last two: by own rows
 };
 
 /// The greatest eigenvalue of a symmetric tridiagonal matrix T, or 0 if that is negative. By bisection: T − x has only negative pivots exactly if x is
@@ -66,10 +55,10 @@ double greatest_eigenvalue(const std::vector<double>& diagonal, const std::vecto
 
 }  // namespace
 
-double damping(Mat A, const std::vector<int>& solved) {
+double damping(HalfMatrix& A, const std::vector<int>& solved) {
   constexpr int kSteps = 12;        // of Lanczos, from numbers at random: within 1 % on all levels tried
   constexpr double kAbove = 1.03;
-  const Ranks ranks = ranks_of(A);
+  const Ranks& ranks = A.ranks();
   if (ranks.alone()) return 1;
   Between between(A, solved);
   const auto dot = [&](const std::vector<double>& a, const std::vector<double>& b) { return ranks.sum(std::inner_product(a.begin(), a.end(), b.begin(), 0.0)); };

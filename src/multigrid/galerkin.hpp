@@ -1,30 +1,30 @@
 // Coarse matrices PᵀAP whose pattern is known, in which only some rows change.
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "base/buckets.hpp"
+#include "multigrid/half_matrix.hpp"
 #include "multigrid/local_rows.hpp"
 
 namespace dotyk::multigrid {
 
 /// The identity, with room for PᵀAP: a block of entries for each pair of coarse nodes that A couples by way of P. The symbolic product is
 /// made of nodes: of rows it takes a dozen times the memory. Collective.
-OwnedMat coarse_matrix(Mat A, Mat P);
+HalfMatrix coarse_matrix(const HalfMatrix& A, Mat P);
 
 /// PETSc's own product knows neither that unknowns come in blocks nor that rows stay. Seconds of a set() on a cube of 200 000
 /// unknowns: 1.2 by PETSc's, 0.6 here where all rows are new, 0.02 to 0.2 where a disc on the top is held or let go.
 class Galerkin {
  public:
   /// `coarse` has the pattern of PᵀAP; its blocks are the coarse nodes. Collective.
-  Galerkin(Mat fine, Mat interpolation, Mat coarse);
+  Galerkin(const HalfMatrix& fine, Mat interpolation, const HalfMatrix& coarse);
 
   /// Takes the new numbers of P, also those of rows on other ranks. Collective.
-  void fetch(Mat fine, Mat interpolation);
+  void fetch(Mat interpolation);
   /// Computes the rows of `coarse` that depend on the given fine rows of A and P, all of this rank. Returns a flag for each coarse row of
   /// this rank: computed. Collective: each rank has the part of PᵀAP that its fine rows give, and sends what belongs to coarse nodes of others.
-  std::vector<char> compute(Mat fine, Mat interpolation, Mat coarse, const std::vector<char>& changed);
+  std::vector<char> compute(const HalfMatrix& fine, Mat interpolation, HalfMatrix& coarse, const std::vector<char>& changed);
 
   double bytes() const;
 
@@ -36,27 +36,35 @@ class Galerkin {
     std::vector<int> place, rows;  // place: of a row among `rows`, or -1
     std::vector<double> numbers;
   };
+  /// What belongs to coarse nodes of other ranks, by rank: of each node how many others it is coupled with, its number and theirs; and the blocks.
+  struct Outgoing {
+    std::vector<std::vector<int>> nodes;
+    std::vector<std::vector<double>> numbers;
+  };
 
   // Template arguments: rows of a fine node and of a coarse one, as constants for the compiler; 0: fine_, size_ are used.
   template <int rows_of_node, int columns>
-  void compute_block(int block, const LocalRows& A, const RowsView& P);
+  void compute_block(int block, const HalfMatrix& A, const RowsView& P);
   template <int rows_of_node, int columns>
-  void add_rows(std::span<const int> rows, const LocalRows& A);
+  void add_node(int node, const HalfMatrix& A);
   template <int columns>
-  void add_product(const LocalRows& A, const RowsView& P);
-  void put_block(int block, LocalRows& C);
-  void send_block(int block, Mat C);
+  void add_product(const RowsView& P);
+  /// Calls put(number of C, computed one) for the entries of an own block of rows.
+  template <class Put>
+  void each_entry(int block, HalfMatrix& C, const Put& put);
+  void append_block(int block, int rank, Outgoing& out);
+  void add(const Outgoing& in, HalfMatrix& C) const;
+  /// The row of P, among those reached, of a fine node's first row; nodes as HalfMatrix counts them.
+  int reached_row(int node) const;
 
   int size_ = 1, fine_ = 1;          // rows of a coarse node, of a fine one
   Owned<IS, ISDestroy> rows_, columns_;
-  OwnedMat reached_;                 // rows of P that this rank's rows of A reach; none where there is one rank, as these are P
-  int below_ = 0;                    // of these, how many come before the rank's own
+  Owned<Mat*, destroy_array> reached_;  // rows of P that this rank's rows of A reach; none where there is one rank, as these are P
+  int below_ = 0;                    // of these nodes, how many come before the rank's own
   int own_ = 0;                      // fine nodes of this rank
-  std::vector<int> other_node_;      // column of A on other ranks → its node, counted after the own ones
-  std::vector<int> other_first_;     // of each of these nodes its first column, and the number of all
-  std::vector<char> alike_;          // own fine nodes whose rows of A have the same columns
   Buckets support_;                  // coarse node → the own rows of P with entries in its columns, as rows of reached_
   Buckets first_;                    // beside support_: the first of these entries
+  std::vector<int> firsts_;          // by rank its first coarse node
   // Room to work: `product_` has (A P)_kJ for fine nodes k and the block J, since A is symmetric; `sum_` the block's rows of the coarse matrix, by columns.
   SomeRows product_, sum_;
   std::vector<double> entries_;      // P_iJ of one fine node i

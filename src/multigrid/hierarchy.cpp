@@ -39,20 +39,26 @@ OwnedPc aggregate(Mat finest) {
 
 /// A coarse matrix is singular where coarse functions vanish, or agree, after truncation. A diagonal greater by a tiny factor, and
 /// one where there is none, makes it definite; what the cycle does elsewhere is not changed noticeably. Of the given rows.
-void make_definite(Mat coarse, const std::vector<char>& rows) {
+void make_definite(HalfMatrix& coarse, const std::vector<char>& rows) {
   constexpr double kFactor = 1e-10;
-  const LocalRows C(coarse);
-  std::vector<double*> diagonal;
   double greatest = 0;
-  for (int i = 0; i < C.count(); ++i) {
-    diagonal.push_back(C.find(i, C.first_row + i));
-    if (!diagonal.back()) throw std::runtime_error("multigrid: a coarse matrix has no diagonal");
-    greatest = std::max(greatest, *diagonal[i]);
-  }
-  greatest = ranks_of(coarse).greatest(greatest);
+  for (int i = 0; i < coarse.rows(); ++i) greatest = std::max(greatest, coarse.diagonal(i));
+  greatest = coarse.ranks().greatest(greatest);
   if (!(greatest > 0)) greatest = 1;
   for (std::size_t i = 0; i < rows.size(); ++i)
-    if (rows[i]) *diagonal[i] = *diagonal[i] > kFactor * greatest ? *diagonal[i] * (1 + kFactor) : greatest;
+    if (double& d = coarse.diagonal(static_cast<int>(i)); rows[i]) d = d > kFactor * greatest ? d * (1 + kFactor) : greatest;
+}
+
+HalfMatrix half_of(Mat matrix) {
+  const int block = BlockSize(matrix).rows;
+  const LocalRows view(matrix);
+  const auto each = [&](auto&& visit) {
+    for (int row = 0; row < view.count(); ++row)
+      view.for_each(row, [&](int column, double number) {
+        if (column <= view.first_row + row || column >= view.first_row + view.count()) visit(view.first_row + row, column, number);
+      });
+  };
+  return HalfMatrix(ranks_of(matrix), block, view.count(), each);
 }
 
 double bytes_of(Mat m) {
@@ -110,22 +116,26 @@ double most_by_factor(double unknowns) { return std::clamp(std::sqrt(500 * unkno
 
 Hierarchy::Hierarchy(const Ranks& ranks, Piece piece, const Change& first) : ranks_(ranks), piece_(std::move(piece)) {
   empty_.assign(static_cast<std::size_t>(piece_.own[0]), 0);
-  matrices_.push_back(matrix_of(piece_.matrix, piece_.own[0], {piece_.block, piece_.block}));
-  check(MatSetOption(matrices_[0], MAT_SPD, PETSC_TRUE));
-  pending_.emplace_back(empty_.size(), ranks_.all(piece_.coarser.columns.empty()));
+  matrices_.push_back(half_of(piece_.matrix, 0));
+  pending_.emplace_back(empty_.size(), ranks_.all(piece_.coarser.empty()));
   take(first);
-  tell_changed(matrices_[0]);
   coarsen();
 }
 
-OwnedMat Hierarchy::matrix_of(Rows& rows, int own_columns, std::array<int, 2> blocks) {
-  return multigrid::matrix_of(ranks_, rows, others_.emplace_back(), own_columns, blocks);
+HalfMatrix Hierarchy::half_of(Triangle& triangle, int level) {
+  const Triangle taken = std::move(triangle);
+  triangle = {};
+  return HalfMatrix(ranks_, level == 0 ? piece_.block : piece_.dimension, piece_.own[level], [&](auto&& visit) { taken.each(visit); });
+}
+
+OwnedMat Hierarchy::oblong(Rows& rows, int own_columns, std::array<int, 2> blocks) {
+  return matrix_of(ranks_, rows, others_.emplace_back(), own_columns, blocks);
 }
 
 void Hierarchy::coarsen() {
   const bool same = piece_.unknowns.columns.empty();
   OwnedMat S;
-  if (!ranks_.all(same)) S = matrix_of(piece_.unknowns, piece_.own[0], {piece_.block, piece_.block});
+  if (!ranks_.all(same)) S = oblong(piece_.unknowns, piece_.own[0], {piece_.block, piece_.block});
   if (!piece_.functions.empty()) {
     take_functions(S);
     if (ranks_.sum(piece_.own.back()) > most_by_factor(ranks_.sum(piece_.own[0]))) {
@@ -133,50 +143,46 @@ void Hierarchy::coarsen() {
       take_aggregates(matrices_.back());
     }
   } else if (S) {
-    const OwnedMat displaced = matrix_of(piece_.displaced, piece_.own[0], {piece_.block, piece_.block});
-    check(MatSetOption(displaced, MAT_SPD, PETSC_TRUE));
-    take_aggregates(displaced);
+    take_aggregates(half_of(piece_.displaced, 0));
     take_unknowns(S);
-    piece_.displaced = Rows();
   } else {
     take_aggregates(matrices_[0]);
   }
   S = OwnedMat();
   piece_.unknowns = Rows(), piece_.modes = {};
-  for (std::size_t l = products_.size(); l < interpolations_.size(); ++l) {
-    check(MatProductClear(matrices_[l + 1]));  // what PETSc keeps for its own product
-    multiply(static_cast<int>(l));
-  }
+  for (std::size_t l = products_.size(); l < interpolations_.size(); ++l) multiply(static_cast<int>(l));
 }
 
 void Hierarchy::multiply(int level) {
   products_.emplace_back(matrices_[level], interpolations_[level], matrices_[level + 1]);
-  if (level > 0) pending_.emplace_back(static_cast<std::size_t>(LocalRows(matrices_[level]).count()), 1);
+  if (level > 0) pending_.emplace_back(static_cast<std::size_t>(matrices_[level].rows()), 1);
 }
 
 void Hierarchy::take_functions(Mat S) {
   for (std::size_t l = 0; l < piece_.functions.size(); ++l) {
-    OwnedMat P = matrix_of(piece_.functions[l], piece_.own[l + 1], {l == 0 ? piece_.block : piece_.dimension, piece_.dimension});
+    OwnedMat P = oblong(piece_.functions[l], piece_.own[l + 1], {l == 0 ? piece_.block : piece_.dimension, piece_.dimension});
     if (l == 0 && S) P = product(S, P);
-    const bool known = l == 0 && !ranks_.all(piece_.coarser.columns.empty());
-    matrices_.push_back(known ? matrix_of(piece_.coarser, piece_.own[1], {piece_.dimension, piece_.dimension}) : coarse_matrix(matrices_.back(), P));
+    const bool known = l == 0 && !ranks_.all(piece_.coarser.empty());
+    matrices_.push_back(known ? half_of(piece_.coarser, 1) : coarse_matrix(matrices_.back(), P));
     if (known) make_definite(matrices_[1], std::vector<char>(static_cast<std::size_t>(piece_.own[1]), 1));
     interpolations_.push_back(std::move(P));
     multiply(static_cast<int>(l));
   }
 }
 
-void Hierarchy::take_aggregates(Mat finest) {
+void Hierarchy::take_aggregates(const HalfMatrix& of) {
+  const OwnedMat finest = copied(ranks_, of.full(), of.rows());
+  check(MatSetBlockSize(finest, of.block()));
+  check(MatSetOption(finest, MAT_SPD, PETSC_TRUE));
   attach_near_kernel(finest, piece_.modes, piece_.motions);
   const OwnedPc pc = aggregate(finest);
-  check(MatSetNearNullSpace(finest, nullptr));
   PetscInt count = 0, coarse = 0;
   Mat *interpolations = nullptr, *operators = nullptr;
   check(PCGetInterpolations(pc, &count, &interpolations));  // the coarsest first, each with a reference for us
   check(PCGetCoarseOperators(pc, &coarse, &operators));
   for (PetscInt l = count - 2; l >= 0; --l) {
     interpolations_.emplace_back(interpolations[l]);
-    matrices_.emplace_back(operators[l]);
+    matrices_.push_back(multigrid::half_of(OwnedMat(operators[l])));
   }
   check(PetscFree(interpolations));
   check(PetscFree(operators));
@@ -209,24 +215,25 @@ void Hierarchy::truncate(const std::vector<int>& held) {
 
 bool Hierarchy::take(const Change& change) {
   bool positive = true;
-  const LocalRows A(matrices_[0]);
+  HalfMatrix& A = matrices_[0];
   for (std::size_t e = 0; e < change.values.size(); ++e) {
-    const int row = change.rows[e] - A.first_row;
+    const int row = change.rows[e] - A.first_row();
     double* number = A.find(row, change.columns[e]);
     if (!number) throw std::runtime_error("multigrid: the matrix has another pattern than the one that the solver was made for");
     if (change.rows[e] == change.columns[e] && !(change.values[e] > 0)) positive = false;
-    if (std::exchange(*number, change.values[e]) != change.values[e]) pending_[0][row] = 1;
+    if (std::exchange(*number, change.values[e]) == change.values[e]) continue;
+    pending_[0][row] = 1;
+    if (A.has(change.columns[e])) pending_[0][change.columns[e] - A.first_row()] = 1;
   }
   return positive;
 }
 
 bool Hierarchy::set(const Change& change) {
   if (!ranks_.all(take(change))) return false;
-  tell_changed(matrices_[0]);
   if (!interpolations_.empty()) {
     truncate(change.empty);
     tell_changed(interpolations_[0]);
-    products_[0].fetch(matrices_[0], interpolations_[0]);
+    products_[0].fetch(interpolations_[0]);
   }
   fill_coarse();
   return true;
@@ -236,15 +243,14 @@ void Hierarchy::fill_coarse() {
   for (std::size_t l = 0; l < products_.size(); ++l) {
     const std::vector<char> computed = products_[l].compute(matrices_[l], interpolations_[l], matrices_[l + 1], pending_[l]);
     make_definite(matrices_[l + 1], computed);
-    tell_changed(matrices_[l + 1]);
     std::ranges::fill(pending_[l], 0);
     for (std::size_t i = 0; l + 1 < products_.size() && i < computed.size(); ++i) pending_[l + 1][i] |= computed[i];
   }
 }
 
 double Hierarchy::bytes() const {
-  double sum = bytes_of(matrices_[0]);
-  for (std::size_t l = 1; l < matrices_.size(); ++l) sum += bytes_of(matrices_[l]) + bytes_of(interpolations_[l - 1]) + products_[l - 1].bytes();
+  double sum = matrices_[0].bytes();
+  for (std::size_t l = 1; l < matrices_.size(); ++l) sum += matrices_[l].bytes() + bytes_of(interpolations_[l - 1]) + products_[l - 1].bytes();
   return sum;
 }
 

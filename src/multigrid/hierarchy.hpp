@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "multigrid/galerkin.hpp"
+#include "multigrid/piece.hpp"
 
 namespace dotyk::multigrid {
 
@@ -20,7 +21,7 @@ class Hierarchy {
   bool set(const Change& change);
 
   int levels() const { return static_cast<int>(matrices_.size()); }
-  Mat matrix(int level) const { return matrices_[level]; }                ///< from 0, the finest
+  HalfMatrix& matrix(int level) { return matrices_[level]; }              ///< from 0, the finest
   Mat interpolation(int level) const { return interpolations_[level]; }   ///< from `level` + 1 to `level`
   int meshes() const { return static_cast<int>(piece_.functions.size()); }  ///< coarser ones: of so many levels after the finest
   double bytes() const;  ///< of this rank
@@ -28,12 +29,14 @@ class Hierarchy {
  private:
   /// Takes the entries. False where a number of the diagonal is not positive.
   bool take(const Change& change);
-  OwnedMat matrix_of(Rows& rows, int own_columns, std::array<int, 2> blocks);
+  /// The triangle is gone then.
+  HalfMatrix half_of(Triangle& triangle, int level);
+  OwnedMat oblong(Rows& rows, int own_columns, std::array<int, 2> blocks);
   void coarsen();
   /// Levels of coarser meshes. S: the unknowns, of displacements, all slots; null where they are the same.
   void take_functions(Mat S);
   /// Levels of aggregates below `finest`, which has the modes.
-  void take_aggregates(Mat finest);
+  void take_aggregates(const HalfMatrix& finest);
   /// Interpolations from coarse displacements to the unknowns, and coarse matrices of these.
   void take_unknowns(Mat S);
   void multiply(int level);  ///< makes the product that gives the next level
@@ -42,9 +45,10 @@ class Hierarchy {
   void truncate(const std::vector<int>& held);
 
   const Ranks ranks_;
-  Piece piece_;                                 // whose arrays are the first matrices'
+  Piece piece_;                                 // whose functions' arrays are the first interpolations'
   std::deque<Rows> others_;                     // beside them: in columns of other ranks
-  std::vector<OwnedMat> matrices_, interpolations_;
+  std::deque<HalfMatrix> matrices_;
+  std::vector<OwnedMat> interpolations_;
   std::vector<Galerkin> products_;              // of each interpolation
   std::vector<char> empty_;                     // own rows of the finest interpolation that are empty now
   std::map<int, std::vector<double>> emptied_;  // the numbers that they had

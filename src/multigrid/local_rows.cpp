@@ -1,6 +1,5 @@
 #include "multigrid/local_rows.hpp"
 
-#include <algorithm>
 
 namespace dotyk::multigrid {
 
@@ -29,19 +28,6 @@ LocalRows::LocalRows(Mat matrix) {
   check(MatMPIAIJGetSeqAIJ(matrix, &diagonal, &rest, &others));
   own.emplace(diagonal), other.emplace(rest);
   check(MatGetSize(rest, nullptr, &others_count));
-}
-
-double* LocalRows::find(int row, int column) const {
-  const bool mine = column >= first_column && column < first_column + own_columns;
-  const RowsView& part = mine ? *own : *other;
-  int local = column - first_column;
-  if (!mine) {
-    const PetscInt* at = std::lower_bound(others, others + others_count, column);
-    if (at == others + others_count || *at != column) return nullptr;
-    local = static_cast<int>(at - others);
-  }
-  const PetscInt *end = part.columns + part.starts[row + 1], *at = std::lower_bound(part.columns + part.starts[row], end, local);
-  return at == end || *at != local ? nullptr : part.values + (at - part.columns);
 }
 
 namespace {
@@ -78,6 +64,18 @@ OwnedMat matrix_of(const Ranks& ranks, Rows& rows, Rows& others, int own_columns
                                          rows.values.data(), others.starts.data(), others.columns.data(), others.values.data(), m.put()));
   }
   check(MatSetBlockSizes(m, blocks[0], blocks[1]));
+  return m;
+}
+
+OwnedMat copied(const Ranks& ranks, const Rows& rows, int own_columns) {
+  const int count = static_cast<int>(rows.starts.size()) - 1;
+  const double* values = rows.values.empty() ? nullptr : rows.values.data();
+  OwnedMat m;
+  check(MatCreate(ranks.comm(), m.put()));
+  check(MatSetSizes(m, count, own_columns, PETSC_DETERMINE, PETSC_DETERMINE));
+  check(MatSetType(m, ranks.alone() ? MATSEQAIJ : MATMPIAIJ));
+  check(ranks.alone() ? MatSeqAIJSetPreallocationCSR(m, rows.starts.data(), rows.columns.data(), values)
+                      : MatMPIAIJSetPreallocationCSR(m, rows.starts.data(), rows.columns.data(), values));
   return m;
 }
 

@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "multigrid/petsc_session.hpp"
-#include "multigrid/piece.hpp"
+#include "multigrid/ranks.hpp"
+#include "multigrid/rows.hpp"
 
 namespace dotyk::multigrid {
 
@@ -39,9 +40,6 @@ class LocalRows {
     if (other)
       for (int k = other->starts[row]; k < other->starts[row + 1]; ++k) visit(others[other->columns[k]], other->values[k]);
   }
-  /// The number at a row, counted from 0, and a column of all; null where the pattern has no such entry.
-  double* find(int row, int column) const;
-
   std::optional<RowsView> own, other;
   const PetscInt* others = nullptr;            ///< by column of `other`: its number, ascending
   int others_count = 0;
@@ -57,6 +55,9 @@ struct BlockSize {
 /// A matrix with these rows; `blocks`: its BlockSize. It uses the arrays of `rows` and `others`, which must outlive it: entries in columns of other ranks are
 /// moved from `rows` to `others`. Collective.
 OwnedMat matrix_of(const Ranks& ranks, Rows& rows, Rows& others, int own_columns, std::array<int, 2> blocks);
+
+/// A matrix with these rows, which it copies; zeros where they have no values. Collective.
+OwnedMat copied(const Ranks& ranks, const Rows& rows, int own_columns);
 
 /// Numbers were changed: what PETSc derived from them is out of date.
 void tell_changed(Mat m);

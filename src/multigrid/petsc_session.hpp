@@ -35,6 +35,37 @@ class Owned {
   Object object_ = nullptr;
 };
 
+/// Of one matrix: what MatCreateSubMatrices() returns.
+inline PetscErrorCode destroy_array(Mat** matrices) { return *matrices ? MatDestroySubMatrices(1, matrices) : 0; }
+
+/// The numbers of a vector that this process has, for as long as this lives.
+class Numbers {
+ public:
+  explicit Numbers(Vec of) : of_(of) { check(VecGetArray(of_, &numbers_)); }
+  ~Numbers() { VecRestoreArray(of_, &numbers_); }
+  Numbers(const Numbers&) = delete;
+  Numbers& operator=(const Numbers&) = delete;
+  operator double*() { return numbers_; }
+
+ private:
+  Vec of_;
+  PetscScalar* numbers_ = nullptr;
+};
+
+/// The same, to be read.
+class ReadNumbers {
+ public:
+  explicit ReadNumbers(Vec of) : of_(of) { check(VecGetArrayRead(of_, &numbers_)); }
+  ~ReadNumbers() { VecRestoreArrayRead(of_, &numbers_); }
+  ReadNumbers(const ReadNumbers&) = delete;
+  ReadNumbers& operator=(const ReadNumbers&) = delete;
+  operator const double*() const { return numbers_; }
+
+ private:
+  Vec of_;
+  const PetscScalar* numbers_ = nullptr;
+};
+
 using OwnedMat = Owned<Mat, MatDestroy>;
 using OwnedVec = Owned<Vec, VecDestroy>;
 using OwnedKsp = Owned<KSP, KSPDestroy>;

@@ -85,18 +85,18 @@ class PetscSolver final : public algebra::SpdSolver {
   }
 
  private:
-  /// Sends each other rank its parcel and its first changes; returns the piece of rank 0. Parcels are made in parallel, as many at a time as there are cores.
-  /// The first parcels are made before the other ranks are told to begin, because a rank keeps a core busy while it waits for its parcel.
+  /// Sends each other rank its piece and its first changes; returns the piece of rank 0. Pieces are made in parallel, as many at a time as there are cores.
+  /// The first pieces are made before the other ranks are told to begin, because a rank keeps a core busy while it waits for its piece.
   Piece share_out(const Pieces& pieces, std::vector<Change>& first) const {
     const Ranks& ranks = workers_.ranks();
     for (int from = 1; from < ranks.count();) {
-      std::vector<Parcel> some(static_cast<std::size_t>(std::min(cores(), ranks.count() - from)));
-      parallel_for(static_cast<int>(some.size()), [&](int k) { some[k] = pieces.parcel(from + k); });
+      std::vector<Piece> some(static_cast<std::size_t>(std::min(cores(), ranks.count() - from)));
+      parallel_for(static_cast<int>(some.size()), [&](int k) { some[k] = pieces.of(from + k); });
       if (from == 1) workers_.tell(Task::make);
-      for (Parcel& parcel : some) {
-        send(ranks, from, parcel);
+      for (Piece& piece : some) {
+        send(ranks, from, piece);
         send(ranks, from, first[from]);
-        parcel = {}, ++from;
+        piece = {}, ++from;
       }
     }
     return pieces.of(0);

@@ -1,9 +1,6 @@
 #include "multigrid/piece.hpp"
 
 #include <algorithm>
-#include <iterator>
-#include <limits>
-#include <numeric>
 #include <stdexcept>
 #include <tuple>
 #include <utility>
@@ -33,65 +30,13 @@ void sort_rows(Rows& rows) {
   }
 }
 
-/// Calls visit(row, column, number) for the entries of a lower triangle, column by column, by the numbers of Numbering.
-template <class Visit>
-void each_entry(const algebra::SparseMatrix& lower, const std::vector<int>& slot, Visit&& visit) {
-  for (int j = 0; j < lower.cols(); ++j)
-    for (int k = lower.outerIndexPtr()[j]; k < lower.outerIndexPtr()[j + 1]; ++k) {
-      const int i = lower.innerIndexPtr()[k];
-      if (i < j) throw std::runtime_error("multigrid: the matrix is not a lower triangle");
-      visit(slot[i], slot[j], lower.valuePtr()[k]);
-    }
-}
-
-template <class Visit>
-void each_entry(const Triangle& triangle, Visit&& visit) {
-  for (std::size_t j = 0; j < triangle.columns.size(); ++j)
-    for (int k = triangle.starts[j]; k < triangle.starts[j + 1]; ++k) visit(triangle.rows[k], triangle.columns[j], triangle.values[k]);
-}
-
-/// Makes the rows of a range of the full symmetric matrix from its lower triangle. each(visit) visits the entries of the triangle, column by column. If
-/// the unknowns keep their order, the columns of each row ascend: the entries left of the diagonal are in earlier columns of the triangle, the others in
-/// the row's own column.
-template <class Each>
-Rows full_rows(const Range& range, const std::vector<int>& idle, double mean, Each&& each) {
-  Rows rows;
-  std::vector<int> next(static_cast<std::size_t>(range.count()), 0);
-  const auto each_of_rows = [&](auto&& put) {
-    each([&](int i, int j, double value) {
-      if (range.has(i)) put(i - range.first, j, value);
-      if (i != j && range.has(j)) put(j - range.first, i, value);
-    });
-    for (const int i : idle)
-      if (range.has(i)) put(i - range.first, i, mean);
-  };
-  each_of_rows([&](int row, int, double) { ++next[row]; });
-  for (int& entries : next) {
-    const int begin = rows.starts.back();
-    rows.starts.push_back(begin + entries);
-    entries = begin;
-  }
-  rows.columns.resize(static_cast<std::size_t>(rows.starts.back()));
-  rows.values.resize(rows.columns.size());
-  each_of_rows([&](int row, int column, double value) {
-    const int at = next[row]++;
-    rows.columns[at] = column, rows.values[at] = value;
-  });
-  sort_rows(rows);
-  return rows;
-}
-
-Rows full_rows(const Triangle& triangle) {
-  return full_rows(Range{triangle.first, triangle.first + triangle.count}, triangle.idle, triangle.mean, [&](auto&& visit) { each_entry(triangle, visit); });
-}
-
-/// Mean of the diagonal. Throws where that is not positive.
+/// Mean of the diagonal. Throws where that is not positive, or no lower triangle's.
 double mean_diagonal(const algebra::SparseMatrix& lower) {
   const int* begin = lower.outerIndexPtr();
   double sum = 0;
   for (int j = 0; j < lower.cols(); ++j) {
     const bool has = begin[j] < begin[j + 1] && lower.innerIndexPtr()[begin[j]] == j;
-    if (!has || !(lower.valuePtr()[begin[j]] > 0)) throw std::runtime_error("multigrid: the diagonal of the matrix is not positive");
+    if (!has || !(lower.valuePtr()[begin[j]] > 0)) throw std::runtime_error("multigrid: the matrix is no lower triangle, or its diagonal is not positive");
     sum += lower.valuePtr()[begin[j]];
   }
   return sum / static_cast<double>(lower.cols());
@@ -143,21 +88,10 @@ void visit_all(Piece& p, Visit&& visit) {
   p.block = sizes[0], p.dimension = sizes[1], p.motions = sizes[2];
   p.functions.resize(static_cast<std::size_t>(sizes[3]));
   visit(p.own);
+  for (Triangle* t : {&p.matrix, &p.coarser, &p.displaced}) visit(t->columns), visit(t->starts), visit(t->rows), visit(t->values);
   for (Rows& functions : p.functions) visit_rows(functions, visit);
   visit_rows(p.unknowns, visit);
   visit(p.modes);
-}
-
-template <class Visit>
-void visit_all(Parcel& p, Visit&& visit) {
-  visit_all(p.piece, visit);
-  for (Triangle* t : {&p.matrix, &p.coarser, &p.displaced}) {
-    std::vector<double> mean{t->mean};
-    std::vector<int> range{t->first, t->count};
-    visit(mean), visit(range);
-    t->mean = mean[0], t->first = range[0], t->count = range[1];
-    visit(t->columns), visit(t->starts), visit(t->rows), visit(t->values), visit(t->idle);
-  }
 }
 
 template <class Visit>
@@ -177,20 +111,18 @@ Whole receive_whole(const Ranks& ranks, int from) {
 Pieces::Pieces(const Matrix& matrix, const Numbering& numbering) : matrix_(matrix), numbering_(numbering) {
   if (!matrix.lower.isCompressed() || static_cast<std::size_t>(matrix.lower.rows()) != matrix.node.size())
     throw std::runtime_error("multigrid: the matrix is not compressed, or nodes are not given for each unknown");
-  if (2.0 * static_cast<double>(matrix.lower.nonZeros()) > std::numeric_limits<int>::max())
-    throw std::runtime_error("multigrid: the matrix has more entries than can be counted");
-  finest_ = source(matrix.lower, 0, numbering.slot(), numbering.idle());
+  finest_ = source(matrix.lower, numbering.slot(), numbering.idle());
   if (matrix.coarser) coarser_ = coarser();
   if (!matrix.displaced) return;
   if (matrix.coarse) mean_diagonal(*matrix.displaced);
-  else displaced_ = source(*matrix.displaced, 0, numbering.slot(), numbering.idle());
+  else displaced_ = source(*matrix.displaced, numbering.slot(), numbering.idle());
 }
 
-Pieces::Source Pieces::source(const algebra::SparseMatrix& lower, int level, std::vector<int> slot, std::vector<int> idle) {
-  return {&lower, level, std::move(slot), std::move(idle), mean_diagonal(lower)};
+Source Pieces::source(const algebra::SparseMatrix& lower, std::vector<int> slot, std::vector<int> idle) {
+  return {&lower, std::move(slot), std::move(idle), mean_diagonal(lower)};
 }
 
-Pieces::Source Pieces::coarser() const {
+Source Pieces::coarser() const {
   const algebra::SparseRows& functions = matrix_.coarse->front();
   std::vector<char> used(static_cast<std::size_t>(functions.cols()), 0);
   for (int i = 0; i < functions.rows(); ++i)
@@ -198,22 +130,21 @@ Pieces::Source Pieces::coarser() const {
   std::vector<int> slot, idle;
   for (std::size_t k = 0; k < used.size(); ++k) (used[k] ? slot : idle).push_back(numbering_.functions(1)[k]);
   if (static_cast<std::size_t>(matrix_.coarser->rows()) != slot.size()) throw std::runtime_error("multigrid: the coarser matrix is not one of these functions");
-  return source(*matrix_.coarser, 1, std::move(slot), std::move(idle));
+  return source(*matrix_.coarser, std::move(slot), std::move(idle));
 }
 
-Rows Pieces::rows_of(int rank, const Source& source) const {
-  if (!source.lower) return {};
-  return full_rows(range_of(rank, numbering_, source.level), source.idle, source.mean, [&](auto&& visit) { each_entry(*source.lower, source.slot, visit); });
-}
-
-Triangle Pieces::triangle_of(int rank, const Source& source) const {
+Triangle Pieces::triangle_of(int rank, const Source& source, int level) const {
   Triangle out;
   if (!source.lower) return out;
-  const Range range = range_of(rank, numbering_, source.level);
-  out.first = range.first, out.count = range.count(), out.mean = source.mean;
-  std::copy_if(source.idle.begin(), source.idle.end(), std::back_inserter(out.idle), [&](int i) { return range.has(i); });
+  if (rank == 0) {
+    out.source = &source;
+    return out;
+  }
+  const Range range = range_of(rank, numbering_, level);
+  Triangle all;
+  all.source = &source;
   const auto each_of_rank = [&](auto&& visit) {
-    each_entry(*source.lower, source.slot, [&](int i, int j, double value) {
+    all.each([&](int i, int j, double value) {
       if (range.has(i) || range.has(j)) visit(i, j, value);
     });
   };
@@ -227,7 +158,7 @@ Triangle Pieces::triangle_of(int rank, const Source& source) const {
   return out;
 }
 
-Piece Pieces::without_matrices(int rank) const {
+Piece Pieces::of(int rank) const {
   const int meshes = matrix_.coarse ? static_cast<int>(matrix_.coarse->size()) : 0;
   Piece p;
   p.block = numbering_.block(), p.dimension = matrix_.dimension, p.motions = static_cast<int>(matrix_.near_kernel.cols());
@@ -237,30 +168,14 @@ Piece Pieces::without_matrices(int rank) const {
                                     range_of(rank, numbering_, l)));
   if (matrix_.unknowns) p.unknowns = some_rows(*matrix_.unknowns, &numbering_.slot(), &numbering_.slot(), range_of(rank, numbering_, 0), numbering_.idle());
   p.modes = some_modes(matrix_.near_kernel, meshes > 0 ? numbering_.functions(meshes) : numbering_.slot(), range_of(rank, numbering_, meshes));
+  p.matrix = triangle_of(rank, finest_, 0), p.coarser = triangle_of(rank, coarser_, 1), p.displaced = triangle_of(rank, displaced_, 0);
   return p;
 }
 
-Piece Pieces::of(int rank) const {
-  Piece p = without_matrices(rank);
-  p.matrix = rows_of(rank, finest_), p.coarser = rows_of(rank, coarser_), p.displaced = rows_of(rank, displaced_);
-  return p;
+void send(const Ranks& ranks, int to, Piece& piece) {
+  visit_all(piece, [&](const auto& numbers) { ranks.send(to, numbers); });
 }
-
-Parcel Pieces::parcel(int rank) const {
-  return {without_matrices(rank), triangle_of(rank, finest_), triangle_of(rank, coarser_), triangle_of(rank, displaced_)};
-}
-
-void send(const Ranks& ranks, int to, Parcel& parcel) {
-  visit_all(parcel, [&](const auto& numbers) { ranks.send(to, numbers); });
-}
-Piece receive_piece(const Ranks& ranks, int from) {
-  Parcel parcel = receive_whole<Parcel>(ranks, from);
-  Piece piece = std::move(parcel.piece);
-  piece.coarser = full_rows(parcel.coarser), piece.displaced = full_rows(parcel.displaced);
-  parcel.coarser = {}, parcel.displaced = {};
-  piece.matrix = full_rows(parcel.matrix);
-  return piece;
-}
+Piece receive_piece(const Ranks& ranks, int from) { return receive_whole<Piece>(ranks, from); }
 void send(const Ranks& ranks, int to, Change& change) {
   visit_all(change, [&](const auto& numbers) { ranks.send(to, numbers); });
 }

@@ -28,9 +28,43 @@ double Ranks::greatest(double own) const {
   return own;
 }
 
+int Ranks::before(int own) const {
+  int up_to = own;
+  if (!alone()) MPI_Scan(&own, &up_to, 1, MPI_INT, MPI_SUM, comm_);
+  return up_to - own;
+}
+
+std::vector<int> Ranks::gather(int own) const {
+  std::vector<int> all(static_cast<std::size_t>(count_), own);
+  if (!alone()) MPI_Allgather(&own, 1, MPI_INT, all.data(), 1, MPI_INT, comm_);
+  return all;
+}
+
 namespace {
 
-constexpr int kTag = 1;
+constexpr int kTag = 1, kExchange = 2;
+
+/// Between neighbours alone: few of many ranks.
+template <class Number>
+void exchange_numbers(const Ranks& ranks, const std::vector<std::vector<Number>>& to, const std::vector<int>& counts, MPI_Datatype type, const auto& place) {
+  std::vector<MPI_Request> requests;
+  for (int r = 0; r < ranks.count(); ++r)
+    if (counts[r] > 0) MPI_Irecv(place(r), counts[r], type, r, kExchange, ranks.comm(), &requests.emplace_back());
+  for (int r = 0; r < ranks.count(); ++r)
+    if (!to[r].empty()) MPI_Isend(to[r].data(), static_cast<int>(to[r].size()), type, r, kExchange, ranks.comm(), &requests.emplace_back());
+  MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+}
+
+template <class Number>
+std::vector<std::vector<Number>> exchange_numbers(const Ranks& ranks, const std::vector<std::vector<Number>>& to, MPI_Datatype type) {
+  std::vector<int> sent, counts(to.size(), 0);
+  for (const auto& numbers : to) sent.push_back(static_cast<int>(numbers.size()));
+  MPI_Alltoall(sent.data(), 1, MPI_INT, counts.data(), 1, MPI_INT, ranks.comm());
+  std::vector<std::vector<Number>> from(to.size());
+  for (std::size_t r = 0; r < from.size(); ++r) from[r].resize(static_cast<std::size_t>(counts[r]));
+  exchange_numbers(ranks, to, counts, type, [&](int r) { return from[r].data(); });
+  return from;
+}
 
 template <class Number>
 void send_numbers(MPI_Comm comm, int to, const std::vector<Number>& numbers, MPI_Datatype type) {
@@ -48,6 +82,15 @@ void receive_numbers(MPI_Comm comm, int from, std::vector<Number>& numbers, MPI_
 }
 
 }  // namespace
+
+std::vector<std::vector<int>> Ranks::exchange(const std::vector<std::vector<int>>& to) const { return exchange_numbers(*this, to, MPI_INT); }
+std::vector<std::vector<double>> Ranks::exchange(const std::vector<std::vector<double>>& to) const { return exchange_numbers(*this, to, MPI_DOUBLE); }
+
+void Ranks::exchange(const std::vector<std::vector<double>>& to, const std::vector<int>& counts, std::vector<double>& from) const {
+  std::vector<std::size_t> starts{0};
+  for (const int count : counts) starts.push_back(starts.back() + static_cast<std::size_t>(count));
+  exchange_numbers(*this, to, counts, MPI_DOUBLE, [&](int r) { return from.data() + starts[r]; });
+}
 
 void Ranks::send(int to, const std::vector<int>& numbers) const { send_numbers(comm_, to, numbers, MPI_INT); }
 void Ranks::send(int to, const std::vector<double>& numbers) const { send_numbers(comm_, to, numbers, MPI_DOUBLE); }

@@ -24,6 +24,15 @@ class Ranks {
   double sum(double own) const;       ///< collective
   double greatest(double own) const;  ///< collective
 
+  int before(int own) const;               ///< the sum over the ranks before this one; collective
+  std::vector<int> gather(int own) const;  ///< by rank; collective
+
+  /// Sends `to` each rank its numbers and returns what came, by rank. Collective.
+  std::vector<std::vector<int>> exchange(const std::vector<std::vector<int>>& to) const;
+  std::vector<std::vector<double>> exchange(const std::vector<std::vector<double>>& to) const;
+  /// The same where it is known how many numbers come from each rank; they are put into `from`, one rank after the other.
+  void exchange(const std::vector<std::vector<double>>& to, const std::vector<int>& counts, std::vector<double>& from) const;
+
   void send(int to, const std::vector<int>& numbers) const;
   void send(int to, const std::vector<double>& numbers) const;
   /// Takes what was sent, in the order in which it was.

@@ -27,22 +27,20 @@ bool set_up(KSP ksp) {
   return true;
 }
 
-bool SharedRows::set(Mat matrix, const std::vector<int>& shared) {
+bool SharedRows::set(const HalfMatrix& matrix, const std::vector<int>& shared) {
   shared_ = shared;
-  const Ranks ranks = ranks_of(matrix);
+  const Ranks& ranks = matrix.ranks();
   any_ = !ranks.all(shared_.empty());
   if (!any_) return true;
-  PetscInt first = 0, size = 0;
-  check(MatGetOwnershipRange(matrix, &first, nullptr));
-  check(MatGetLocalSize(matrix, &size, nullptr));
+  const PetscInt count = static_cast<PetscInt>(shared_.size());
   Owned<IS, ISDestroy> some, all;
-  std::vector<PetscInt> numbers(shared_);
-  for (PetscInt& row : numbers) row += first;
-  check(ISCreateGeneral(ranks.comm(), static_cast<PetscInt>(numbers.size()), numbers.data(), PETSC_COPY_VALUES, some.put()));
-  check(ISCreateStride(ranks.comm(), size, first, 1, all.put()));
-  rows_ = OwnedMat(), block_ = OwnedMat(), exact_ = OwnedKsp(), left_ = OwnedVec(), change_ = OwnedVec();
-  check(MatCreateSubMatrix(matrix, some, all, MAT_INITIAL_MATRIX, rows_.put()));
-  check(MatCreateSubMatrix(matrix, some, some, MAT_INITIAL_MATRIX, block_.put()));
+  std::vector<PetscInt> columns(shared_);
+  for (PetscInt& column : columns) column += matrix.first_row();
+  check(ISCreateGeneral(ranks.comm(), count, columns.data(), PETSC_COPY_VALUES, some.put()));
+  check(ISCreateStride(ranks.comm(), count, ranks.before(count), 1, all.put()));
+  rows_ = copied(ranks, matrix.full(shared_), matrix.rows());
+  block_ = OwnedMat(), exact_ = OwnedKsp(), left_ = OwnedVec(), change_ = OwnedVec();
+  check(MatCreateSubMatrix(rows_, all, some, MAT_INITIAL_MATRIX, block_.put()));
   check(MatCreateVecs(block_, change_.put(), left_.put()));
   check(KSPCreate(ranks.comm(), exact_.put()));
   factor_on_each(exact_, block_, MAT_SHIFT_NONE, MATSOLVERCHOLMOD);
@@ -52,19 +50,15 @@ bool SharedRows::set(Mat matrix, const std::vector<int>& shared) {
 void SharedRows::solve(Vec b, Vec x) {
   if (!any_) return;
   check(MatMult(rows_, x, left_));
-  const PetscScalar *all = nullptr, *change = nullptr;
-  PetscScalar *left = nullptr, *out = nullptr;
-  check(VecGetArrayRead(b, &all));
-  check(VecGetArray(left_, &left));
-  for (std::size_t i = 0; i < shared_.size(); ++i) left[i] = all[shared_[i]] - left[i];
-  check(VecRestoreArray(left_, &left));
-  check(VecRestoreArrayRead(b, &all));
+  {
+    const ReadNumbers of(b);
+    Numbers left(left_);
+    for (std::size_t i = 0; i < shared_.size(); ++i) left[i] = of[shared_[i]] - left[i];
+  }
   check(KSPSolve(exact_, left_, change_));
-  check(VecGetArrayRead(change_, &change));
-  check(VecGetArray(x, &out));
+  const ReadNumbers change(change_);
+  Numbers out(x);
   for (std::size_t i = 0; i < shared_.size(); ++i) out[shared_[i]] += change[i];
-  check(VecRestoreArray(x, &out));
-  check(VecRestoreArrayRead(change_, &change));
 }
 
 }  // namespace dotyk::multigrid

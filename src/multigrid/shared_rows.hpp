@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "multigrid/half_matrix.hpp"
 #include "multigrid/local_rows.hpp"
 
 namespace dotyk::multigrid {
@@ -12,15 +13,15 @@ namespace dotyk::multigrid {
 /// after it it comes first, so that the cycle is symmetric. All functions are collective, except any().
 class SharedRows {
  public:
-  /// Takes the numbers of `matrix`, which must outlive this; `shared`: rows of this rank, ascending, may be none. False where they are not definite.
-  bool set(Mat matrix, const std::vector<int>& shared);
+  /// Takes the numbers of `matrix` at rows of this rank, counted from its first, ascending; there may be none. False where they are not definite.
+  bool set(const HalfMatrix& matrix, const std::vector<int>& shared);
   bool any() const { return any_; }  ///< on any rank
   /// Changes x at the shared unknowns so that b − A x is zero there.
   void solve(Vec b, Vec x);
 
  private:
   bool any_ = false;
-  std::vector<int> shared_;  ///< counted from the rank's first row
+  std::vector<int> shared_;
   OwnedMat rows_, block_;    ///< of the matrix, at the shared unknowns
   OwnedKsp exact_;
   OwnedVec left_, change_;

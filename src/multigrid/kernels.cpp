@@ -1,0 +1,187 @@
+#include "multigrid/kernels.hpp"
+
+#include <cstdint>
+#include <cstring>
+#include <stdexcept>
+
+// Each block of L is read once. It serves its row, and by its transpose the rows above it. Rows of blocks are read as vectors of the compiler's, with lanes
+// beyond a node's numbers. What these lanes give is put where nothing reads it.
+namespace dotyk::multigrid {
+
+namespace {
+
+/// The least power of two from 2 on that is not below `rows`.
+constexpr int padded(int rows) { return rows <= 2 ? 2 : 2 * padded((rows + 1) / 2); }
+
+/// Vectors of `width` numbers; where they are made of a parameter, GCC 12 does not know them as vectors.
+template <class Number, int width>
+struct Wide;
+#define DOTYK_WIDE(Number, width)                                          \
+  template <>                                                              \
+  struct Wide<Number, width> {                                             \
+    typedef Number Type __attribute__((vector_size(sizeof(Number) * width))); \
+  };
+DOTYK_WIDE(double, 2)
+DOTYK_WIDE(double, 4)
+DOTYK_WIDE(double, 8)
+DOTYK_WIDE(float, 2)
+DOTYK_WIDE(float, 4)
+DOTYK_WIDE(float, 8)
+#undef DOTYK_WIDE
+
+/// What the kernels know of blocks, nodes of `rows` rows.
+template <int rows, class Number>
+struct Kernel {
+  static constexpr int kWidth = padded(rows);
+  using Lanes = typename Wide<double, kWidth>::Type;
+  using Numbers = typename Wide<Number, kWidth>::Type;
+
+  const HalfBlocks<Number>& A;
+
+  [[gnu::always_inline]] const Number* block(int k) const { return A.below + static_cast<std::int64_t>(k) * (rows * rows); }
+  [[gnu::always_inline]] const Number* diagonal(int node) const { return A.diagonal + static_cast<std::int64_t>(node) * (rows * rows); }
+  [[gnu::always_inline]] static double* at(double* v, int node) { return v + static_cast<std::int64_t>(node) * kWidth; }
+  [[gnu::always_inline]] static void load(const double* from, Lanes& to) { std::memcpy(&to, from, sizeof to); }
+
+  /// to += factor × a row of a block.
+  template <class Factor>
+  [[gnu::always_inline]] static void add_row(const Number* block, int r, const Factor& factor, Lanes& to) {
+    Numbers numbers;
+    std::memcpy(&numbers, block + r * rows, sizeof numbers);
+    to += __builtin_convertvector(numbers, Lanes) * factor;
+  }
+
+  /// sum = (L x) at a node.
+  [[gnu::always_inline]] void gather(int node, double* x, double (&sum)[rows]) const {
+    Lanes products[rows] = {};
+    for (int k = A.starts[node]; k < A.starts[node + 1]; ++k) {
+      Lanes xj;
+      load(at(x, A.columns[k]), xj);
+      for (int r = 0; r < rows; ++r) add_row(block(k), r, xj, products[r]);
+    }
+    for (int r = 0; r < rows; ++r) {
+      sum[r] = products[r][0];
+      for (int c = 1; c < rows; ++c) sum[r] += products[r][c];
+    }
+  }
+
+  /// y += Lᵀ x for an x that is zero but at a node.
+  [[gnu::always_inline]] void spread(int node, const double (&x)[rows], double* y) const {
+    for (int k = A.starts[node]; k < A.starts[node + 1]; ++k) {
+      double* to = at(y, A.columns[k]);
+      Lanes sum;
+      load(to, sum);
+      for (int r = 0; r < rows; ++r) add_row(block(k), r, x[r], sum);
+      std::memcpy(to, &sum, sizeof sum);
+    }
+  }
+
+  [[gnu::always_inline]] void multiply(double* x, double* y) const {
+    for (int i = 0; i < A.nodes(); ++i) {
+      double sum[rows], xi[rows];
+      gather(i, x, sum);
+      const Number* d = diagonal(i);
+      for (int r = 0; r < rows; ++r) xi[r] = at(x, i)[r];
+      for (int r = 0; r < rows; ++r) {
+        for (int c = 0; c < rows; ++c) sum[r] += d[r * rows + c] * xi[c];
+        at(y, i)[r] = sum[r];
+      }
+      spread(i, xi, y);
+    }
+  }
+
+  [[gnu::always_inline]] void forward(const float* inverse, double* x, double* left) const {
+    for (int i = 0; i < A.nodes(); ++i) {
+      double s[rows], xi[rows], minus[rows];
+      gather(i, x, s);
+      const Number* d = diagonal(i);
+      double *own = at(x, i), *own_left = at(left, i);
+      for (int r = 0; r < rows; ++r) {
+        double sum = s[r] = own_left[r] - s[r];
+        for (int c = 0; c < r; ++c) sum -= d[r * rows + c] * xi[c];
+        own[r] = xi[r] = inverse[static_cast<std::int64_t>(i) * rows + r] * sum, minus[r] = -xi[r];
+      }
+      for (int r = 0; r < rows; ++r) {
+        for (int c = 0; c < rows; ++c) s[r] -= d[r * rows + c] * xi[c];
+        own_left[r] = s[r];
+      }
+      spread(i, minus, left);
+    }
+  }
+
+  [[gnu::always_inline]] void backward(const float* inverse, double* b, double* x) const {
+    for (int i = A.nodes(); i-- > 0;) {
+      double s[rows], change[rows], minus[rows];
+      gather(i, x, s);
+      const Number* d = diagonal(i);
+      double* own = at(x, i);
+      for (int r = 0; r < rows; ++r) {
+        s[r] = at(b, i)[r] - s[r];
+        for (int c = 0; c < rows; ++c) s[r] -= d[r * rows + c] * own[c];
+      }
+      for (int r = rows; r-- > 0;) {
+        for (int c = r + 1; c < rows; ++c) s[r] -= d[r * rows + c] * change[c];
+        change[r] = inverse[static_cast<std::int64_t>(i) * rows + r] * s[r];
+      }
+      for (int r = 0; r < rows; ++r) own[r] += change[r], minus[r] = -own[r];
+      spread(i, minus, b);
+    }
+  }
+};
+
+#ifdef __x86_64__
+#define DOTYK_CLONES [[gnu::target_clones("arch=haswell", "default")]]
+#else
+#define DOTYK_CLONES
+#endif
+
+// Nodes of solids in space, by vectors of as many numbers as the processor has.
+DOTYK_CLONES void multiply_of_three(const HalfBlocks<double>& A, double* x, double* y) { Kernel<3, double>{A}.multiply(x, y); }
+DOTYK_CLONES void forward_of_three(const HalfBlocks<float>& A, const float* inverse, double* x, double* left) { Kernel<3, float>{A}.forward(inverse, x, left); }
+DOTYK_CLONES void backward_of_three(const HalfBlocks<float>& A, const float* inverse, double* b, double* x) { Kernel<3, float>{A}.backward(inverse, b, x); }
+
+/// Calls work.operator()<rows>() with the size as a constant; 3 is left to others.
+template <class Work>
+void dispatch(int size, const Work& work) {
+  switch (size) {
+    case 1: return work.template operator()<1>();
+    case 2: return work.template operator()<2>();
+    case 4: return work.template operator()<4>();
+    case 5: return work.template operator()<5>();
+    case 6: return work.template operator()<6>();
+    default: throw std::logic_error("multigrid: blocks of this size have no kernel");
+  }
+}
+
+}  // namespace
+
+PaddedVector::PaddedVector(int size, int nodes) : size_(size), width_(padded(size)), numbers_(static_cast<std::size_t>(nodes) * width_, 0.0) {
+  if (size > kMostRows) throw std::runtime_error("multigrid: a node has more than six unknowns");
+}
+
+void PaddedVector::take(const double* from, double factor) {
+  for (std::size_t i = 0; i < numbers_.size(); i += width_, from += size_)
+    for (int r = 0; r < size_; ++r) numbers_[i + r] = factor * from[r];
+}
+
+void PaddedVector::give(double* to, double factor) const {
+  for (std::size_t i = 0; i < numbers_.size(); i += width_, to += size_)
+    for (int r = 0; r < size_; ++r) to[r] = factor * numbers_[i + r];
+}
+
+void multiply(const HalfBlocks<double>& A, PaddedVector& x, PaddedVector& y) {
+  if (A.size == 3) return multiply_of_three(A, x.data(), y.data());
+  dispatch(A.size, [&]<int rows>() { Kernel<rows, double>{A}.multiply(x.data(), y.data()); });
+}
+
+void sweep_forward(const HalfBlocks<float>& A, const float* inverse, PaddedVector& x, PaddedVector& left) {
+  if (A.size == 3) return forward_of_three(A, inverse, x.data(), left.data());
+  dispatch(A.size, [&]<int rows>() { Kernel<rows, float>{A}.forward(inverse, x.data(), left.data()); });
+}
+
+void sweep_backward(const HalfBlocks<float>& A, const float* inverse, PaddedVector& b, PaddedVector& x) {
+  if (A.size == 3) return backward_of_three(A, inverse, b.data(), x.data());
+  dispatch(A.size, [&]<int rows>() { Kernel<rows, float>{A}.backward(inverse, b.data(), x.data()); });
+}
+
+}  // namespace dotyk::multigrid

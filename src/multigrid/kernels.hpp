@@ -1,0 +1,49 @@
+// Sweeps and products with half of a symmetric matrix.
+#pragma once
+
+#include <span>
+#include <vector>
+
+namespace dotyk::multigrid {
+
+/// A symmetric matrix A = L + D + Lᵀ of square blocks, a row and a column of them a node: the blocks of D and those of L, each row by row.
+template <class Number>
+struct HalfBlocks {
+  int size;                     ///< rows of a node
+  std::span<const int> starts;  ///< of the nodes' blocks in L, and the number of all
+  const int* columns;           ///< nodes
+  const Number* below;          ///< L; kSpare numbers more than the blocks have may be read
+  const Number* diagonal;       ///< D
+  int nodes() const { return static_cast<int>(starts.size()) - 1; }
+};
+
+inline constexpr int kMostRows = 6, kSpare = 8;
+
+/// A vector for these functions: the numbers of each node, and padding.
+class PaddedVector {
+ public:
+  PaddedVector() = default;
+  /// Throws std::runtime_error where a node has more than kMostRows rows.
+  PaddedVector(int size, int nodes);
+  double* data() { return numbers_.data(); }
+  /// The place of a row of the vector without padding.
+  double& operator[](int row) { return numbers_[static_cast<std::size_t>(row / size_ * width_ + row % size_)]; }
+  void take(const double* from, double factor = 1);
+  void give(double* to, double factor = 1) const;
+  double bytes() const { return 8.0 * static_cast<double>(numbers_.size()); }
+
+ private:
+  int size_ = 1, width_ = 2;
+  std::vector<double> numbers_;
+};
+
+/// y = A x.
+void multiply(const HalfBlocks<double>& A, PaddedVector& x, PaddedVector& y);
+
+/// x = (D_ω + L)⁻¹ left, where D_ω has the part of D below its diagonal, and its diagonal over ω; then left −= A x. `inverse`: ω / diagonal, by rows.
+void sweep_forward(const HalfBlocks<float>& A, const float* inverse, PaddedVector& x, PaddedVector& left);
+
+/// x += (D_ω + L)⁻ᵀ (b − A x). `b` is changed.
+void sweep_backward(const HalfBlocks<float>& A, const float* inverse, PaddedVector& b, PaddedVector& x);
+
+}  // namespace dotyk::multigrid
