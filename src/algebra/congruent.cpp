@@ -1,73 +1,193 @@
 #include "algebra/congruent.hpp"
 
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <span>
+#include <utility>
+
+#include "base/buckets.hpp"
 #include "base/parallel.hpp"
 
 namespace dotyk::algebra {
 namespace {
 
-/// A column of numbers, most of which are 0.
-class SparseColumn {
+constexpr int kAlike = 3;  ///< columns at a time
+
+/// Up to kAlike columns of numbers, most of which are 0.
+class SparseColumns {
  public:
-  explicit SparseColumn(Eigen::Index size) : value_(size, 0.0), in_(size, 0) {}
-  void add(int at, double value) {
-    if (!in_[at]) in_[at] = 1, places_.push_back(at);
-    value_[at] += value;
+  explicit SparseColumns(Eigen::Index size) : value_(size * kAlike, 0.0), in_(size, 0) {}
+  double* at(int row) {
+    if (!in_[row]) in_[row] = 1, rows_.push_back(row);
+    return value_.data() + static_cast<std::ptrdiff_t>(row) * kAlike;
   }
-  /// Visits places and numbers, and forgets them.
+  /// Visits rows and their numbers, and forgets them.
   template <class Visit>
   void empty(const Visit& visit) {
-    for (const int at : places_) {
-      visit(at, value_[at]);
-      value_[at] = 0, in_[at] = 0;
+    for (const int row : rows_) {
+      double* numbers = value_.data() + static_cast<std::ptrdiff_t>(row) * kAlike;
+      visit(row, numbers);
+      std::fill_n(numbers, kAlike, 0.0), in_[row] = 0;
     }
-    places_.clear();
+    rows_.clear();
   }
 
  private:
   std::vector<double> value_;
   std::vector<char> in_;
-  std::vector<int> places_;
+  std::vector<int> rows_;
 };
+
+std::span<const int> rows_of(const SparseMatrix& A, int j) { return {A.innerIndexPtr() + A.outerIndexPtr()[j], A.innerIndexPtr() + A.outerIndexPtr()[j + 1]}; }
+const double* numbers_of(const SparseMatrix& A, int j) { return A.valuePtr() + A.outerIndexPtr()[j]; }
+
+/// Do some columns of PᵀLP from J on have the same rows, as those of a node's components? Those of P then are shifted by one, and those of L have the same rows
+/// below the diagonal.
+bool are_alike(const SparseMatrix& lower, const SparseMatrix& P, int J, int count) {
+  const auto first = rows_of(P, J);
+  for (int c = 1; c < count; ++c) {
+    const auto next = rows_of(P, J + c);
+    if (next.size() != first.size() || !std::equal(numbers_of(P, J), numbers_of(P, J) + first.size(), numbers_of(P, J + c))) return false;
+    for (std::size_t k = 0; k < first.size(); ++k) {
+      const int i = first[k];
+      if (next[k] != i + c) return false;
+      const auto all = rows_of(lower, i), own = rows_of(lower, i + c);
+      if (all.size() != own.size() + c || !std::equal(own.begin(), own.end(), all.begin() + c)) return false;
+    }
+  }
+  return true;
+}
+
+/// Columns first, first + 1, … of M, rows ascending, without what is above the diagonal.
+struct HalfColumns {
+  int first = 0;
+  std::vector<std::size_t> starts{0};
+  std::vector<int> rows;
+  std::vector<double> numbers;
+  Triplets above;  ///< the rest, transposed
+
+  struct Part {
+    std::span<const int> rows;
+    const double* numbers;
+  };
+  Part operator[](int J) const {
+    const std::size_t at = starts[J - first];
+    return {std::span(rows).subspan(at, starts[J - first + 1] - at), numbers.data() + at};
+  }
+};
+
+/// Makes columns of M = PᵀLP. `rows`: P once more.
+class Product {
+ public:
+  Product(const SparseMatrix& lower, const SparseMatrix& P, const SparseRows& rows) : lower_(lower), P_(P), rows_(rows), fine_(P.rows()), coarse_(P.cols()) {}
+
+  /// Columns J … J + count − 1, which are alike.
+  template <int count>
+  void append(int J, HalfColumns& to) {
+    for (SparseMatrix::InnerIterator p(P_, J); p; ++p) add<count>(static_cast<int>(p.row()), p.value());
+    fine_.empty([&](int i, const double* numbers) {
+      for (SparseRows::InnerIterator p(rows_, i); p; ++p) {
+        double* sum = coarse_.at(static_cast<int>(p.col()));
+        for (int c = 0; c < count; ++c) sum[c] += p.value() * numbers[c];
+      }
+    });
+    entries_.clear();
+    coarse_.empty([&](int I, const double* numbers) {
+      entries_.push_back({I, {}});
+      std::copy_n(numbers, count, entries_.back().numbers);
+    });
+    std::ranges::sort(entries_, {}, &Entry::row);
+    for (int c = 0; c < count; ++c) {
+      for (const auto& [I, numbers] : entries_) {
+        if (I < J + c) to.above.emplace_back(J + c, I, numbers[c]);
+        else to.rows.push_back(I), to.numbers.push_back(I == J + c ? 2 * numbers[c] : numbers[c]);
+      }
+      to.starts.push_back(to.rows.size());
+    }
+  }
+
+ private:
+  struct Entry {
+    int row;
+    double numbers[kAlike];
+  };
+
+  /// factor × L's columns from i on.
+  template <int count>
+  void add(int i, double factor) {
+    const auto rows = rows_of(lower_, i);
+    const double* of[count];
+    for (int c = 0; c < count; ++c) of[c] = numbers_of(lower_, i + c) - c;
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      double* sum = fine_.at(rows[k]);
+      for (int c = 0; c < count; ++c)
+        if (rows[k] > i + c) sum[c] += factor * of[c][k];
+        else if (rows[k] == i + c) sum[c] += factor * 0.5 * of[c][k];
+    }
+  }
+
+  const SparseMatrix &lower_, &P_;
+  const SparseRows& rows_;
+  SparseColumns fine_, coarse_;
+  std::vector<Entry> entries_;
+};
+
+/// Visits the entries of a column of M's lower part and of `above`, added up; `of_column`: those of the latter, rows ascending.
+template <class Visit>
+void each_of_sum(const HalfColumns::Part& below, std::span<const int> of_column, const Triplets& above, const Visit& visit) {
+  std::size_t a = 0, b = 0;
+  while (a < below.rows.size() || b < of_column.size()) {
+    const int of_a = a < below.rows.size() ? below.rows[a] : std::numeric_limits<int>::max();
+    const int of_b = b < of_column.size() ? above[of_column[b]].row() : std::numeric_limits<int>::max();
+    double value = 0;
+    if (of_a <= of_b) value += below.numbers[a++];
+    if (of_b <= of_a) value += above[of_column[b++]].value();
+    visit(std::min(of_a, of_b), value);
+  }
+}
 
 // With L = A's lower triangle and half its diagonal, PᵀAP = M + Mᵀ for M = PᵀLP, which is made column by column. `rows`: P once more.
 SparseMatrix congruent(const SparseMatrix& lower, const SparseMatrix& P, const SparseRows& rows) {
-  struct Columns {
-    std::vector<int> counts, places;
-    std::vector<double> values;
-  };
   constexpr Eigen::Index kFew = 1'000'000;  // entries, for a thread
-  const int threads = threads_for(lower.nonZeros(), kFew);
-  std::vector<Columns> some(static_cast<std::size_t>(threads));
-  parallel_ranges(static_cast<int>(P.cols()), threads, [&](int k, int first, int end) {
-    Columns& own = some[k];
-    SparseColumn fine(P.rows()), coarse(P.cols());
-    for (int J = first; J < end; ++J) {
-      for (SparseMatrix::InnerIterator p(P, J); p; ++p)
-        for (SparseMatrix::InnerIterator l(lower, p.row()); l; ++l) fine.add(static_cast<int>(l.row()), (l.row() == l.col() ? 0.5 : 1) * l.value() * p.value());
-      fine.empty([&](int i, double value) {
-        for (SparseRows::InnerIterator p(rows, i); p; ++p) coarse.add(static_cast<int>(p.col()), p.value() * value);
-      });
-      const std::size_t before = own.places.size();
-      coarse.empty([&](int I, double value) {
-        own.places.push_back(I), own.values.push_back(value);
-      });
-      own.counts.push_back(static_cast<int>(own.places.size() - before));
+  const int threads = threads_for(lower.nonZeros(), kFew), count = static_cast<int>(P.cols());
+  std::vector<HalfColumns> some(static_cast<std::size_t>(threads));
+  parallel_ranges(count, threads, [&](int k, int first, int end) {
+    HalfColumns& own = some[k];
+    own.first = first;
+    const auto about = static_cast<std::size_t>(static_cast<double>(lower.nonZeros()) * (end - first) / static_cast<double>(P.rows()));
+    own.rows.reserve(about), own.numbers.reserve(about);
+    Product product(lower, P, rows);
+    for (int J = first; J < end;) {
+      if (J + 3 <= end && are_alike(lower, P, J, 3)) product.append<3>(J, own), J += 3;
+      else if (J + 2 <= end && are_alike(lower, P, J, 2)) product.append<2>(J, own), J += 2;
+      else product.append<1>(J, own), J += 1;
     }
   });
-  std::vector<int> starts{0}, places;
-  std::vector<double> values;
-  for (Columns& own : some) {
-    for (const int count : own.counts) starts.push_back(starts.back() + count);
-    if (places.empty()) {  // not a second copy of all entries where there is one thread
-      places.swap(own.places), values.swap(own.values);
-      continue;
-    }
-    places.insert(places.end(), own.places.begin(), own.places.end()), values.insert(values.end(), own.values.begin(), own.values.end());
-    own = {};
-  }
-  const Eigen::Map<const SparseMatrix> M(P.cols(), P.cols(), static_cast<Eigen::Index>(places.size()), starts.data(), places.data(), values.data());
-  const SparseMatrix mirrored = M.transpose(), sorted = mirrored.transpose();
-  return lower_sum(sorted, mirrored);
+  Triplets above;
+  for (HalfColumns& own : some) above.insert(above.end(), own.above.begin(), own.above.end()), own.above = {};
+  const Buckets by_column(count, [&](auto&& put) {
+    for (std::size_t e = 0; e < above.size(); ++e) put(above[e].col(), static_cast<int>(e));
+  });
+  SparseMatrix sum(count, count);
+  int* starts = sum.outerIndexPtr();
+  const auto each_column = [&](auto&& work) {
+    parallel_ranges(count, threads, [&](int k, int first, int end) {
+      for (int J = first; J < end; ++J) work(J, [&](auto&& visit) { each_of_sum(some[k][J], by_column[J], above, visit); });
+    });
+  };
+  each_column([&](int J, auto&& each) {
+    int entries = 0;
+    each([&](int, double) { ++entries; });
+    starts[J + 1] = entries;
+  });
+  std::partial_sum(starts, starts + count + 1, starts);
+  sum.resizeNonZeros(starts[count]);
+  each_column([&](int J, auto&& each) {
+    int at = starts[J];
+    each([&](int I, double value) { sum.innerIndexPtr()[at] = I, sum.valuePtr()[at++] = value; });
+  });
+  return sum;
 }
 
 }  // namespace

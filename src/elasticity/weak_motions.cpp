@@ -27,6 +27,8 @@ constexpr double kSuspicious = 1e-3;
 constexpr double kLost = 1e-15;
 /// To which weak motions are rigid, and so known.
 constexpr double kNoise = 1e-4;
+/// For a thread.
+constexpr int kFewNodes = 100'000;
 
 /// Volumes of the cells shared out to their nodes, in units of the whole; one entry an unknown. The last digit depends on the number of threads.
 Vector lumped_volumes(const mesh::Mesh& mesh, const Numbering& numbering) {
@@ -77,20 +79,28 @@ struct Motions {
 
   Motions(const mesh::Mesh& mesh, const Numbering& numbering) : frame(mesh), w(lumped_volumes(mesh, numbering)), F(numbering.count(), frame.count() + 1) {
     const int d = frame.dimension;
-    for (std::size_t k = 0; k < numbering.unknown.size(); ++k) {
-      if (numbering.unknown[k] < 0) continue;
-      const int node = static_cast<int>(k) / d, i = static_cast<int>(k) % d;
-      F.row(numbering.unknown[k]) << frame.row(mesh, k), (mesh.node(node)[i] - frame.centre[i]) / frame.size;
-    }
+    parallel_ranges(mesh.node_count(), threads_for(mesh.node_count(), kFewNodes), [&](int, int first, int end) {
+      for (std::size_t k = static_cast<std::size_t>(first) * d; k < static_cast<std::size_t>(end) * d; ++k) {
+        if (numbering.unknown[k] < 0) continue;
+        const int node = static_cast<int>(k) / d, i = static_cast<int>(k) % d;
+        F.row(numbering.unknown[k]) << frame.row(mesh, k), (mesh.node(node)[i] - frame.centre[i]) / frame.size;
+      }
+    });
   }
 
   auto rigid() const { return F.leftCols(frame.count()); }
   auto dilatation() const { return F.rightCols(1); }
 
-  /// UᵀMV.
+  /// UᵀMV, some rows at a time, so that no other matrix of this size is needed.
   DenseMatrix inner(const Displacements& U, const Displacements& V) const {
-    const ByRows weighted = w.asDiagonal() * V;
-    return U.transpose() * weighted;
+    constexpr Eigen::Index kRows = 1000;
+    DenseMatrix sum = DenseMatrix::Zero(U.cols(), V.cols());
+    for (Eigen::Index first = 0; first < U.rows(); first += kRows) {
+      const Eigen::Index count = std::min(kRows, U.rows() - first);
+      const ByRows weighted = w.segment(first, count).asDiagonal() * V.middleRows(first, count);
+      sum += U.middleRows(first, count).transpose() * weighted;
+    }
+    return sum;
   }
   /// The coefficients of the M-orthogonal projection of u onto the kernel.
   DenseMatrix in_kernel(const Displacements& kernel, const Displacements& u) const {
@@ -116,11 +126,25 @@ struct Motions {
   }
 };
 
-/// FᵀKF, in one pass over K.
+/// FᵀKF, in one pass over K: the sum of F_jᵀ v_j and its transpose, where v_j are the products of K's columns, with half of the diagonal.
 template <int Columns>
 DenseMatrix energies(const SparseMatrix& lower, const ByRows& F) {
-  using Numbers = Eigen::Matrix<double, Eigen::Dynamic, Columns, Eigen::RowMajor>;
-  return F.transpose() * ByRows(algebra::symmetric_product(lower, Eigen::Map<const Numbers>(F.data(), F.rows(), Columns)));
+  using Row = Eigen::Matrix<double, 1, Columns>;
+  constexpr Eigen::Index kFew = 1'000'000;  // entries, for a thread
+  const int threads = threads_for(lower.nonZeros(), kFew);
+  std::vector<DenseMatrix> half(static_cast<std::size_t>(threads));
+  parallel_ranges(static_cast<int>(lower.cols()), threads, [&](int k, int first, int end) {
+    Eigen::Matrix<double, Columns, Columns> sum = Eigen::Matrix<double, Columns, Columns>::Zero();
+    const auto row = [&](Eigen::Index i) { return Eigen::Map<const Row>(F.data() + i * Columns); };
+    for (int j = first; j < end; ++j) {
+      Row product = Row::Zero();
+      for (SparseMatrix::InnerIterator it(lower, j); it; ++it) product += (it.row() == j ? 0.5 : 1) * it.value() * row(it.row());
+      sum += row(j).transpose() * product;
+    }
+    half[k] = sum;
+  });
+  for (int k = 1; k < threads; ++k) half[0] += half[k];
+  return half[0] + half[0].transpose();
 }
 
 /// The least Rayleigh quotient (K, M) on the span of V; infinite where V is nothing.

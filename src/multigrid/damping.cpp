@@ -1,5 +1,6 @@
 #include "multigrid/sweeps.hpp"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -10,30 +11,50 @@ namespace dotyk::multigrid {
 
 namespace {
 
-/// The matrix D^−1/2 A_between D^−1/2. Only this rank's border rows are stored: those with entries in columns of other ranks, except the rows left out.
-/// All other rows are zero.
+/// The matrix G⁻¹ A_between G⁻ᵀ, where D = G Gᵀ, on the nodes of this rank that are coupled to others. Rows and columns left out are zero.
 class Between {
  public:
   Between(HalfMatrix& A, const std::vector<int>& left_out) : A_(A), all_(static_cast<std::size_t>(A.rows()), 0.0), product_(all_) {
-    for (const int row : A.border_rows())
-      if (!std::ranges::binary_search(left_out, row)) border_.push_back(row), scale_.push_back(1 / std::sqrt(std::abs(A.diagonal(row))));
+    const int n = A.block();
+    for (const int node : A.border()) {
+      Block D = Eigen::Map<const Block>(A.half().diagonal + static_cast<std::ptrdiff_t>(node) * n * n, n, n);
+      Eigen::VectorXd kept = Eigen::VectorXd::Ones(n);
+      for (int r = 0; r < n; ++r)
+        if (std::ranges::binary_search(left_out, node * n + r)) kept[r] = 0, D.row(r).setZero(), D.col(r).setZero(), D(r, r) = 1;
+      Eigen::LLT<Block> factor(D);
+      if (factor.info() != Eigen::Success) factor.compute(D.diagonal().cwiseAbs().asDiagonal());
+      factors_.push_back(std::move(factor)), kept_.push_back(std::move(kept));
+    }
   }
 
-  std::size_t count() const { return border_.size(); }
+  std::size_t count() const { return factors_.size() * static_cast<std::size_t>(A_.block()); }
 
   /// Collective.
   std::vector<double> times(const std::vector<double>& v) {
-    for (std::size_t k = 0; k < count(); ++k) all_[border_[k]] = scale_[k] * v[k];
+    std::vector<double> product(v.size());
+    each_node([&](std::size_t k, double* all, double*) { of(all) = kept_[k].cwiseProduct(factors_[k].matrixU().solve(of(v.data() + k * A_.block()))); });
     A_.times_others(all_.data(), [&](int row, double number) { product_[row] = number; });
-    std::vector<double> product;
-    for (std::size_t k = 0; k < count(); ++k) product.push_back(scale_[k] * product_[border_[k]]);
+    each_node([&](std::size_t k, double*, double* own) { of(product.data() + k * A_.block()) = factors_[k].matrixL().solve(kept_[k].cwiseProduct(of(own))); });
     return product;
   }
 
  private:
+  using Block = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, kMostRows, kMostRows>;
+
+  Eigen::Map<Eigen::VectorXd> of(double* numbers) const { return {numbers, A_.block()}; }
+  Eigen::Map<const Eigen::VectorXd> of(const double* numbers) const { return {numbers, A_.block()}; }
+  template <class Work>
+  void each_node(const Work& work) {
+    for (std::size_t k = 0; k < factors_.size(); ++k) {
+      const auto first = static_cast<std::size_t>(A_.border()[k]) * A_.block();
+      work(k, all_.data() + first, product_.data() + first);
+    }
+  }
+
   HalfMatrix& A_;
-  std::vector<int> border_;
-  std::vector<double> scale_, all_, product_;  // the last two: by own rows
+  std::vector<Eigen::LLT<Block>> factors_;  // of nodes of the border
+  std::vector<Eigen::VectorXd> kept_;       // 1, or 0 where a row is left out
+  std::vector<double> all_, product_;       // by own rows
 };
 
 /// The greatest eigenvalue of a symmetric tridiagonal matrix T, or 0 if that is negative. By bisection: T − x has only negative pivots exactly if x is

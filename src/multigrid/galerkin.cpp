@@ -58,7 +58,7 @@ HalfMatrix coarse_matrix(const HalfMatrix& A, Mat P) {
     view.for_each(i, [&](int other, double) { row.push_back(other); });
     close_row(row, nodes);
   }
-  HalfMatrix C(A.ranks(), BlockSize(P).columns, nodes);
+  HalfMatrix C(A.ranks(), HalfRows(BlockSize(P).columns, view.first_row, nodes));
   for (int row = 0; row < C.rows(); ++row) C.diagonal(row) = 1;
   return C;
 }

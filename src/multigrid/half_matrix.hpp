@@ -12,62 +12,82 @@
 
 namespace dotyk::multigrid {
 
-/// The rows of this rank, in blocks of nodes: half of those in its own columns, with the diagonal, and all in columns of other ranks. Rows, columns and nodes are
-/// counted over all ranks where nothing else is said; own nodes from the rank's first.
+/// Some rows of a symmetric matrix, in blocks of nodes that follow one another: half of the blocks in their own columns, with the diagonal, and all in other
+/// columns. Nodes are counted over all ranks where nothing else is said.
+struct HalfRows {
+  int block = 1;                        ///< rows of a node
+  int first = 0;                        ///< own node
+  std::vector<int> starts{0}, columns;  ///< own blocks before the diagonal: of each own node, ascending, counted from `first`
+  std::vector<double> below, diagonal;  ///< their numbers, row by row; kSpare numbers more in `below`
+  std::vector<int> other_starts{0}, others;  ///< blocks in other columns: nodes, ascending for each own one
+  std::vector<double> other;
+
+  HalfRows() = default;
+  /// Zeros. `nodes`: of each own node those that its rows couple it to; of own ones those before it suffice, and itself is not needed.
+  HalfRows(int block, int first, const Rows& nodes);
+
+  int nodes() const { return static_cast<int>(starts.size()) - 1; }
+  bool own(int node) const { return node >= first && node < first + nodes(); }
+
+  /// A block, where the pattern has it: of its row's, or of its column's.
+  struct Place {
+    int row = -1, column = -1;  ///< nodes
+    double* numbers = nullptr;
+    bool transposed = false;
+  };
+  Place place(int row, int column);
+};
+
+/// Of a lower triangle: each(visit) calls visit(row, column, number) of its entries, once for each, at least for those with one of these rows or columns. It is
+/// called several times.
+template <class Each>
+HalfRows half_rows(int block, int first, int nodes, const Each& each);
+
+/// The rows of this rank. Rows, columns and nodes are counted over all ranks where nothing else is said; own nodes from the rank's first.
 class HalfMatrix {
  public:
-  /// Zeros. `nodes`: of each node of this rank the nodes that its rows couple it to; of own ones those before it suffice, and itself is not needed.
   /// Collective.
-  HalfMatrix(const Ranks& ranks, int block, const Rows& nodes);
-  /// Of entries of its lower triangle: each(visit) calls visit(row, column, number), once for each, at least for those with a row or a column of this rank.
-  /// It is called several times. Collective.
-  template <class Each>
-  HalfMatrix(const Ranks& ranks, int block, int own_rows, const Each& each) : HalfMatrix(ranks, block, couplings(ranks, block, own_rows, each)) {
-    each([&](int i, int j, double number) {
-      if (has(i)) *find(i - first_row(), j) = number;
-      if (has(j) && (!has(i) || i / block == j / block)) *find(j - first_row(), i) = number;
-    });
-  }
+  HalfMatrix(const Ranks& ranks, HalfRows rows);
 
   const Ranks& ranks() const { return ranks_; }
-  int block() const { return block_; }              ///< rows of a node
-  int nodes() const { return static_cast<int>(starts_.size()) - 1; }  ///< own ones
-  int rows() const { return nodes() * block_; }
-  int first_row() const { return first_ * block_; }
-  bool has(int row) const { return row >= first_row() && row < first_row() + rows(); }
+  int block() const { return rows_.block; }    ///< rows of a node
+  int nodes() const { return rows_.nodes(); }  ///< own ones
+  int rows() const { return nodes() * block(); }
+  int first_row() const { return rows_.first * block(); }
+  bool has(int row) const { return rows_.own(row / block()); }
 
   /// The number at a row, counted from the rank's first, and a column; null where the pattern has no such entry. One place has the entries (i, j) and
-  /// (j, i) of own rows.
+  /// (j, i) of own rows of different nodes.
   double* find(int row, int column);
-  double diagonal(int row) const { return diagonal_[static_cast<std::size_t>(row) * block_ + row % block_]; }
-  double& diagonal(int row) { return diagonal_[static_cast<std::size_t>(row) * block_ + row % block_]; }
+  double diagonal(int row) const { return rows_.diagonal[static_cast<std::size_t>(row) * block() + row % block()]; }
+  double& diagonal(int row) { return rows_.diagonal[static_cast<std::size_t>(row) * block() + row % block()]; }
 
   /// How a block is to be read.
   enum class Read { as_it_is, transposed };
   /// Calls visit(node, block, read) for the blocks of an own node. `node`: an own one, or nodes() + its place in others().
   template <class Visit>
   void each_block(int node, const Visit& visit) const {
-    const std::int64_t square = block_ * block_;
-    for (int k = starts_[node]; k < starts_[node + 1]; ++k) visit(columns_[k], below_.data() + k * square, Read::as_it_is);
-    visit(node, diagonal_.data() + node * square, Read::as_it_is);
+    const std::int64_t square = block() * block();
+    for (int k = rows_.starts[node]; k < rows_.starts[node + 1]; ++k) visit(rows_.columns[k], rows_.below.data() + k * square, Read::as_it_is);
+    visit(node, rows_.diagonal.data() + node * square, Read::as_it_is);
     const auto above = above_[node], places = above_places_[node];
-    for (std::size_t k = 0; k < above.size(); ++k) visit(above[k], below_.data() + places[k] * square, Read::transposed);
-    for (int k = other_starts_[node]; k < other_starts_[node + 1]; ++k) visit(nodes() + other_columns_[k], other_.data() + k * square, Read::as_it_is);
+    for (std::size_t k = 0; k < above.size(); ++k) visit(above[k], rows_.below.data() + places[k] * square, Read::transposed);
+    for (int k = rows_.other_starts[node]; k < rows_.other_starts[node + 1]; ++k) visit(nodes() + other_places_[k], rows_.other.data() + k * square, Read::as_it_is);
   }
   /// The same, with numbers to be changed, of the blocks that are stored with the node: none is transposed.
   template <class Visit>
   void each_own_block(int node, const Visit& visit) {
-    const std::int64_t square = block_ * block_;
-    for (int k = starts_[node]; k < starts_[node + 1]; ++k) visit(columns_[k], below_.data() + k * square);
-    visit(node, diagonal_.data() + node * square);
-    for (int k = other_starts_[node]; k < other_starts_[node + 1]; ++k) visit(nodes() + other_columns_[k], other_.data() + k * square);
+    const std::int64_t square = block() * block();
+    for (int k = rows_.starts[node]; k < rows_.starts[node + 1]; ++k) visit(rows_.columns[k], rows_.below.data() + k * square);
+    visit(node, rows_.diagonal.data() + node * square);
+    for (int k = rows_.other_starts[node]; k < rows_.other_starts[node + 1]; ++k) visit(nodes() + other_places_[k], rows_.other.data() + k * square);
   }
   const std::vector<int>& others() const { return others_; }  ///< nodes of other ranks, ascending
   /// The number of an own node, or of one of other ranks, as each_block() counts.
-  int number(int node) const { return node < nodes() ? first_ + node : others_[node - nodes()]; }
+  int number(int node) const { return node < nodes() ? rows_.first + node : others_[node - nodes()]; }
 
   /// Half of the rows in own columns.
-  HalfBlocks<double> half() const { return {block_, starts_, columns_.data(), below_.data(), diagonal_.data()}; }
+  HalfBlocks<double> half() const { return {block(), rows_.starts, rows_.columns.data(), rows_.below.data(), 1, rows_.diagonal.data()}; }
 
   /// Two vectors to work with: what multiplies and sweeps with this matrix needs.
   struct Room {
@@ -82,17 +102,18 @@ class HalfMatrix {
   void times_others(const double* x, const Add& add) {
     if (ranks_.alone()) return;
     fetch(x);
-    const std::int64_t square = block_ * block_;
+    const int n = block();
     for (const int node : border_)
-      for (int r = 0; r < block_; ++r) {
+      for (int r = 0; r < n; ++r) {
         double sum = 0;
-        for (int k = other_starts_[node]; k < other_starts_[node + 1]; ++k)
-          for (int c = 0; c < block_; ++c) sum += other_[k * square + r * block_ + c] * theirs_[static_cast<std::size_t>(other_columns_[k]) * block_ + c];
-        add(node * block_ + r, sum);
+        for (int k = rows_.other_starts[node]; k < rows_.other_starts[node + 1]; ++k) {
+          const double *row = rows_.other.data() + (static_cast<std::int64_t>(k) * n + r) * n, *theirs = theirs_.data() + static_cast<std::int64_t>(other_places_[k]) * n;
+          for (int c = 0; c < n; ++c) sum += row[c] * theirs[c];
+        }
+        add(node * n + r, sum);
       }
   }
-  /// Own rows with entries in columns of other ranks, ascending, counted from the rank's first.
-  std::vector<int> border_rows() const;
+  const std::vector<int>& border() const { return border_; }  ///< own nodes that are coupled to others(), ascending
 
   /// Some of the own rows, counted from the rank's first, as they are in A.
   Rows full(const std::vector<int>& rows) const;
@@ -100,18 +121,13 @@ class HalfMatrix {
   double bytes() const;
 
  private:
-  template <class Each>
-  static Rows couplings(const Ranks& ranks, int block, int own_rows, const Each& each);
   void fetch(const double* x);
 
   Ranks ranks_;
-  int block_, first_ = 0;  ///< first_: own node
-  std::vector<int> starts_, columns_;                           ///< own blocks before the diagonal: of each own node, ascending
-  std::vector<double> below_, diagonal_;                        ///< their numbers, row by row
-  Buckets above_, above_places_;                                ///< of each own node those with a block in its column, and the places of these blocks
-  std::vector<int> others_, other_starts_, other_columns_;      ///< other_columns_: places in others_
-  std::vector<double> other_;
-  std::vector<int> border_;                                     ///< own nodes that have such
+  HalfRows rows_;
+  Buckets above_, above_places_;   ///< of each own node those with a block in its column, and the places of these blocks
+  std::vector<int> others_, other_places_;  ///< the latter: of rows_.others in the former
+  std::vector<int> border_;
   std::vector<std::vector<int>> asked_;                         ///< by rank the own nodes whose numbers it needs
   std::vector<int> other_counts_;                               ///< by rank how many of others_ are its
   std::vector<double> theirs_;                                  ///< of the nodes others_
@@ -119,11 +135,10 @@ class HalfMatrix {
 };
 
 template <class Each>
-Rows HalfMatrix::couplings(const Ranks& ranks, int block, int own_rows, const Each& each) {
-  const int own = own_rows / block, first = ranks.before(own);
-  std::vector<int> last(static_cast<std::size_t>(own), -1);  // the node that the pair before was with: each pair of nodes comes several times
-  const auto is_own = [&](int node) { return node >= first && node < first + own; };
-  const Buckets pairs(own, [&](auto&& put) {
+HalfRows half_rows(int block, int first, int nodes, const Each& each) {
+  std::vector<int> last(static_cast<std::size_t>(nodes), -1);  // the node that the pair before was with: each pair of nodes comes several times
+  const auto is_own = [&](int node) { return node >= first && node < first + nodes; };
+  const Buckets pairs(nodes, [&](auto&& put) {
     std::ranges::fill(last, -1);
     each([&](int i, int j, double) {
       const int a = i / block, b = j / block;
@@ -133,15 +148,25 @@ Rows HalfMatrix::couplings(const Ranks& ranks, int block, int own_rows, const Ea
       last[at - first] = other, put(at - first, other);
     });
   });
-  Rows nodes;
+  Rows coupled;
   std::vector<int> row;
-  for (int node = 0; node < own; ++node) {
+  for (int node = 0; node < nodes; ++node) {
     row.assign(pairs[node].begin(), pairs[node].end());
     std::ranges::sort(row);
-    nodes.columns.insert(nodes.columns.end(), row.begin(), std::ranges::unique(row).begin());
-    nodes.starts.push_back(static_cast<int>(nodes.columns.size()));
+    coupled.columns.insert(coupled.columns.end(), row.begin(), std::ranges::unique(row).begin());
+    coupled.starts.push_back(static_cast<int>(coupled.columns.size()));
   }
-  return nodes;
+  HalfRows rows(block, first, coupled);
+  HalfRows::Place last_place;
+  each([&](int i, int j, double number) {
+    const int a = i / block, b = j / block, r = i % block, c = j % block;
+    if (a != last_place.row || b != last_place.column) last_place = rows.place(a, b);
+    double* numbers = last_place.numbers;
+    if (!numbers) return;
+    numbers[last_place.transposed ? c * block + r : r * block + c] = number;
+    if (a == b) numbers[c * block + r] = number;
+  });
+  return rows;
 }
 
 }  // namespace dotyk::multigrid

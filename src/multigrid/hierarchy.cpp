@@ -58,7 +58,7 @@ HalfMatrix half_of(Mat matrix) {
         if (column <= view.first_row + row || column >= view.first_row + view.count()) visit(view.first_row + row, column, number);
       });
   };
-  return HalfMatrix(ranks_of(matrix), block, view.count(), each);
+  return HalfMatrix(ranks_of(matrix), half_rows(block, view.first_row / block, view.count() / block, each));
 }
 
 double bytes_of(Mat m) {
@@ -116,16 +116,10 @@ double most_by_factor(double unknowns) { return std::clamp(std::sqrt(500 * unkno
 
 Hierarchy::Hierarchy(const Ranks& ranks, Piece piece, const Change& first) : ranks_(ranks), piece_(std::move(piece)) {
   empty_.assign(static_cast<std::size_t>(piece_.own[0]), 0);
-  matrices_.push_back(half_of(piece_.matrix, 0));
-  pending_.emplace_back(empty_.size(), ranks_.all(piece_.coarser.empty()));
+  matrices_.emplace_back(ranks_, std::move(piece_.matrix));
+  pending_.emplace_back(empty_.size(), ranks_.all(piece_.coarser.nodes() == 0));
   take(first);
   coarsen();
-}
-
-HalfMatrix Hierarchy::half_of(Triangle& triangle, int level) {
-  const Triangle taken = std::move(triangle);
-  triangle = {};
-  return HalfMatrix(ranks_, level == 0 ? piece_.block : piece_.dimension, piece_.own[level], [&](auto&& visit) { taken.each(visit); });
 }
 
 OwnedMat Hierarchy::oblong(Rows& rows, int own_columns, std::array<int, 2> blocks) {
@@ -143,7 +137,7 @@ void Hierarchy::coarsen() {
       take_aggregates(matrices_.back());
     }
   } else if (S) {
-    take_aggregates(half_of(piece_.displaced, 0));
+    take_aggregates(HalfMatrix(ranks_, std::move(piece_.displaced)));
     take_unknowns(S);
   } else {
     take_aggregates(matrices_[0]);
@@ -162,8 +156,8 @@ void Hierarchy::take_functions(Mat S) {
   for (std::size_t l = 0; l < piece_.functions.size(); ++l) {
     OwnedMat P = oblong(piece_.functions[l], piece_.own[l + 1], {l == 0 ? piece_.block : piece_.dimension, piece_.dimension});
     if (l == 0 && S) P = product(S, P);
-    const bool known = l == 0 && !ranks_.all(piece_.coarser.empty());
-    matrices_.push_back(known ? half_of(piece_.coarser, 1) : coarse_matrix(matrices_.back(), P));
+    const bool known = l == 0 && !ranks_.all(piece_.coarser.nodes() == 0);
+    matrices_.push_back(known ? HalfMatrix(ranks_, std::move(piece_.coarser)) : coarse_matrix(matrices_.back(), P));
     if (known) make_definite(matrices_[1], std::vector<char>(static_cast<std::size_t>(piece_.own[1]), 1));
     interpolations_.push_back(std::move(P));
     multiply(static_cast<int>(l));
@@ -182,7 +176,7 @@ void Hierarchy::take_aggregates(const HalfMatrix& of) {
   check(PCGetCoarseOperators(pc, &coarse, &operators));
   for (PetscInt l = count - 2; l >= 0; --l) {
     interpolations_.emplace_back(interpolations[l]);
-    matrices_.push_back(multigrid::half_of(OwnedMat(operators[l])));
+    matrices_.push_back(half_of(OwnedMat(operators[l])));
   }
   check(PetscFree(interpolations));
   check(PetscFree(operators));

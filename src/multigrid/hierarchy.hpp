@@ -29,8 +29,6 @@ class Hierarchy {
  private:
   /// Takes the entries. False where a number of the diagonal is not positive.
   bool take(const Change& change);
-  /// The triangle is gone then.
-  HalfMatrix half_of(Triangle& triangle, int level);
   OwnedMat oblong(Rows& rows, int own_columns, std::array<int, 2> blocks);
   void coarsen();
   /// Levels of coarser meshes. S: the unknowns, of displacements, all slots; null where they are the same.

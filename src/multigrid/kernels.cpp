@@ -39,7 +39,7 @@ struct Kernel {
   const HalfBlocks<Number>& A;
 
   [[gnu::always_inline]] const Number* block(int k) const { return A.below + static_cast<std::int64_t>(k) * (rows * rows); }
-  [[gnu::always_inline]] const Number* diagonal(int node) const { return A.diagonal + static_cast<std::int64_t>(node) * (rows * rows); }
+  [[gnu::always_inline]] static const double* block(const double* blocks, int node) { return blocks + static_cast<std::int64_t>(node) * (rows * rows); }
   [[gnu::always_inline]] static double* at(double* v, int node) { return v + static_cast<std::int64_t>(node) * kWidth; }
   [[gnu::always_inline]] static void load(const double* from, Lanes& to) { std::memcpy(&to, from, sizeof to); }
 
@@ -62,69 +62,65 @@ struct Kernel {
     for (int r = 0; r < rows; ++r) {
       sum[r] = products[r][0];
       for (int c = 1; c < rows; ++c) sum[r] += products[r][c];
+      sum[r] *= A.unit;
     }
   }
 
-  /// y += Lᵀ x for an x that is zero but at a node.
-  [[gnu::always_inline]] void spread(int node, const double (&x)[rows], double* y) const {
+  /// y += factor Lᵀ x for an x that is zero but at a node.
+  [[gnu::always_inline]] void spread(int node, double factor, const double (&x)[rows], double* y) const {
+    double times[rows];
+    for (int r = 0; r < rows; ++r) times[r] = factor * A.unit * x[r];
     for (int k = A.starts[node]; k < A.starts[node + 1]; ++k) {
       double* to = at(y, A.columns[k]);
       Lanes sum;
       load(to, sum);
-      for (int r = 0; r < rows; ++r) add_row(block(k), r, x[r], sum);
+      for (int r = 0; r < rows; ++r) add_row(block(k), r, times[r], sum);
       std::memcpy(to, &sum, sizeof sum);
     }
   }
+
+  /// to += factor × a block times x.
+  [[gnu::always_inline]] static void add_product(const double* block, double factor, const double (&x)[rows], double (&to)[rows]) {
+    for (int r = 0; r < rows; ++r)
+      for (int c = 0; c < rows; ++c) to[r] += factor * block[r * rows + c] * x[c];
+  }
+  [[gnu::always_inline]] static void copy(const double* from, double (&to)[rows]) { std::memcpy(to, from, sizeof to); }
+  [[gnu::always_inline]] static void copy(const double (&from)[rows], double* to) { std::memcpy(to, from, sizeof from); }
 
   [[gnu::always_inline]] void multiply(double* x, double* y) const {
     for (int i = 0; i < A.nodes(); ++i) {
       double sum[rows], xi[rows];
       gather(i, x, sum);
-      const Number* d = diagonal(i);
-      for (int r = 0; r < rows; ++r) xi[r] = at(x, i)[r];
-      for (int r = 0; r < rows; ++r) {
-        for (int c = 0; c < rows; ++c) sum[r] += d[r * rows + c] * xi[c];
-        at(y, i)[r] = sum[r];
-      }
-      spread(i, xi, y);
+      copy(at(x, i), xi);
+      add_product(block(A.diagonal, i), 1, xi, sum);
+      copy(sum, at(y, i));
+      spread(i, 1, xi, y);
     }
   }
 
-  [[gnu::always_inline]] void forward(const float* inverse, double* x, double* left) const {
+  [[gnu::always_inline]] void forward(const double* inverse, double* x, double* left) const {
     for (int i = 0; i < A.nodes(); ++i) {
-      double s[rows], xi[rows], minus[rows];
-      gather(i, x, s);
-      const Number* d = diagonal(i);
-      double *own = at(x, i), *own_left = at(left, i);
-      for (int r = 0; r < rows; ++r) {
-        double sum = s[r] = own_left[r] - s[r];
-        for (int c = 0; c < r; ++c) sum -= d[r * rows + c] * xi[c];
-        own[r] = xi[r] = inverse[static_cast<std::int64_t>(i) * rows + r] * sum, minus[r] = -xi[r];
-      }
-      for (int r = 0; r < rows; ++r) {
-        for (int c = 0; c < rows; ++c) s[r] -= d[r * rows + c] * xi[c];
-        own_left[r] = s[r];
-      }
-      spread(i, minus, left);
+      double sum[rows], own_left[rows], xi[rows] = {};
+      gather(i, x, sum);
+      copy(at(left, i), own_left);
+      for (int r = 0; r < rows; ++r) own_left[r] -= sum[r];
+      add_product(block(inverse, i), 1, own_left, xi);
+      add_product(block(A.diagonal, i), -1, xi, own_left);
+      copy(xi, at(x, i)), copy(own_left, at(left, i));
+      spread(i, -1, xi, left);
     }
   }
 
-  [[gnu::always_inline]] void backward(const float* inverse, double* b, double* x) const {
+  [[gnu::always_inline]] void backward(const double* inverse, double* b, double* x) const {
     for (int i = A.nodes(); i-- > 0;) {
-      double s[rows], change[rows], minus[rows];
-      gather(i, x, s);
-      const Number* d = diagonal(i);
-      double* own = at(x, i);
-      for (int r = 0; r < rows; ++r) {
-        s[r] = at(b, i)[r] - s[r];
-        for (int c = 0; c < rows; ++c) s[r] -= d[r * rows + c] * own[c];
-      }
-      for (int r = rows; r-- > 0;) {
-        for (int c = r + 1; c < rows; ++c) s[r] -= d[r * rows + c] * change[c];
-        change[r] = inverse[static_cast<std::int64_t>(i) * rows + r] * s[r];
-      }
-      for (int r = 0; r < rows; ++r) own[r] += change[r], minus[r] = -own[r];
-      spread(i, minus, b);
+      double sum[rows], own_left[rows], xi[rows];
+      gather(i, x, sum);
+      copy(at(x, i), xi), copy(at(b, i), own_left);
+      for (int r = 0; r < rows; ++r) own_left[r] -= sum[r];
+      add_product(block(A.diagonal, i), -1, xi, own_left);
+      add_product(block(inverse, i), 1, own_left, xi);
+      copy(xi, at(x, i));
+      spread(i, -1, xi, b);
     }
   }
 };
@@ -137,8 +133,8 @@ struct Kernel {
 
 // Nodes of solids in space, by vectors of as many numbers as the processor has.
 DOTYK_CLONES void multiply_of_three(const HalfBlocks<double>& A, double* x, double* y) { Kernel<3, double>{A}.multiply(x, y); }
-DOTYK_CLONES void forward_of_three(const HalfBlocks<float>& A, const float* inverse, double* x, double* left) { Kernel<3, float>{A}.forward(inverse, x, left); }
-DOTYK_CLONES void backward_of_three(const HalfBlocks<float>& A, const float* inverse, double* b, double* x) { Kernel<3, float>{A}.backward(inverse, b, x); }
+DOTYK_CLONES void forward_of_three(const HalfBlocks<float>& A, const double* inverse, double* x, double* left) { Kernel<3, float>{A}.forward(inverse, x, left); }
+DOTYK_CLONES void backward_of_three(const HalfBlocks<float>& A, const double* inverse, double* b, double* x) { Kernel<3, float>{A}.backward(inverse, b, x); }
 
 /// Calls work.operator()<rows>() with the size as a constant; 3 is left to others.
 template <class Work>
@@ -159,14 +155,14 @@ PaddedVector::PaddedVector(int size, int nodes) : size_(size), width_(padded(siz
   if (size > kMostRows) throw std::runtime_error("multigrid: a node has more than six unknowns");
 }
 
-void PaddedVector::take(const double* from, double factor) {
+void PaddedVector::take(const double* from) {
   for (std::size_t i = 0; i < numbers_.size(); i += width_, from += size_)
-    for (int r = 0; r < size_; ++r) numbers_[i + r] = factor * from[r];
+    for (int r = 0; r < size_; ++r) numbers_[i + r] = from[r];
 }
 
-void PaddedVector::give(double* to, double factor) const {
+void PaddedVector::give(double* to) const {
   for (std::size_t i = 0; i < numbers_.size(); i += width_, to += size_)
-    for (int r = 0; r < size_; ++r) to[r] = factor * numbers_[i + r];
+    for (int r = 0; r < size_; ++r) to[r] = numbers_[i + r];
 }
 
 void multiply(const HalfBlocks<double>& A, PaddedVector& x, PaddedVector& y) {
@@ -174,12 +170,12 @@ void multiply(const HalfBlocks<double>& A, PaddedVector& x, PaddedVector& y) {
   dispatch(A.size, [&]<int rows>() { Kernel<rows, double>{A}.multiply(x.data(), y.data()); });
 }
 
-void sweep_forward(const HalfBlocks<float>& A, const float* inverse, PaddedVector& x, PaddedVector& left) {
+void sweep_forward(const HalfBlocks<float>& A, const double* inverse, PaddedVector& x, PaddedVector& left) {
   if (A.size == 3) return forward_of_three(A, inverse, x.data(), left.data());
   dispatch(A.size, [&]<int rows>() { Kernel<rows, float>{A}.forward(inverse, x.data(), left.data()); });
 }
 
-void sweep_backward(const HalfBlocks<float>& A, const float* inverse, PaddedVector& b, PaddedVector& x) {
+void sweep_backward(const HalfBlocks<float>& A, const double* inverse, PaddedVector& b, PaddedVector& x) {
   if (A.size == 3) return backward_of_three(A, inverse, b.data(), x.data());
   dispatch(A.size, [&]<int rows>() { Kernel<rows, float>{A}.backward(inverse, b.data(), x.data()); });
 }

@@ -12,8 +12,9 @@ struct HalfBlocks {
   int size;                     ///< rows of a node
   std::span<const int> starts;  ///< of the nodes' blocks in L, and the number of all
   const int* columns;           ///< nodes
-  const Number* below;          ///< L; kSpare numbers more than the blocks have may be read
-  const Number* diagonal;       ///< D
+  const Number* below;          ///< L in this unit; kSpare numbers more than the blocks have may be read
+  double unit;
+  const double* diagonal;       ///< D
   int nodes() const { return static_cast<int>(starts.size()) - 1; }
 };
 
@@ -28,8 +29,8 @@ class PaddedVector {
   double* data() { return numbers_.data(); }
   /// The place of a row of the vector without padding.
   double& operator[](int row) { return numbers_[static_cast<std::size_t>(row / size_ * width_ + row % size_)]; }
-  void take(const double* from, double factor = 1);
-  void give(double* to, double factor = 1) const;
+  void take(const double* from);
+  void give(double* to) const;
   double bytes() const { return 8.0 * static_cast<double>(numbers_.size()); }
 
  private:
@@ -40,10 +41,10 @@ class PaddedVector {
 /// y = A x.
 void multiply(const HalfBlocks<double>& A, PaddedVector& x, PaddedVector& y);
 
-/// x = (D_ω + L)⁻¹ left, where D_ω has the part of D below its diagonal, and its diagonal over ω; then left −= A x. `inverse`: ω / diagonal, by rows.
-void sweep_forward(const HalfBlocks<float>& A, const float* inverse, PaddedVector& x, PaddedVector& left);
+/// x = (D/ω + L)⁻¹ left, then left −= A x. `inverse`: the blocks of ω D⁻¹.
+void sweep_forward(const HalfBlocks<float>& A, const double* inverse, PaddedVector& x, PaddedVector& left);
 
-/// x += (D_ω + L)⁻ᵀ (b − A x). `b` is changed.
-void sweep_backward(const HalfBlocks<float>& A, const float* inverse, PaddedVector& b, PaddedVector& x);
+/// x += (D/ω + Lᵀ)⁻¹ (b − A x). `b` is changed.
+void sweep_backward(const HalfBlocks<float>& A, const double* inverse, PaddedVector& b, PaddedVector& x);
 
 }  // namespace dotyk::multigrid

@@ -86,20 +86,21 @@ class PetscSolver final : public algebra::SpdSolver {
 
  private:
   /// Sends each other rank its piece and its first changes; returns the piece of rank 0. Pieces are made in parallel, as many at a time as there are cores.
-  /// The first pieces are made before the other ranks are told to begin, because a rank keeps a core busy while it waits for its piece.
+  /// The first are made before the other ranks are told to begin, because a rank keeps a core busy while it waits for its piece.
   Piece share_out(const Pieces& pieces, std::vector<Change>& first) const {
     const Ranks& ranks = workers_.ranks();
-    for (int from = 1; from < ranks.count();) {
+    Piece own;
+    for (int from = 0; from < ranks.count();) {
       std::vector<Piece> some(static_cast<std::size_t>(std::min(cores(), ranks.count() - from)));
       parallel_for(static_cast<int>(some.size()), [&](int k) { some[k] = pieces.of(from + k); });
-      if (from == 1) workers_.tell(Task::make);
+      if (from == 0) workers_.tell(Task::make);
       for (Piece& piece : some) {
-        send(ranks, from, piece);
-        send(ranks, from, first[from]);
+        if (from == 0) own = std::move(piece);
+        else send(ranks, from, piece), send(ranks, from, first[from]);
         piece = {}, ++from;
       }
     }
-    return pieces.of(0);
+    return own;
   }
   /// Of all ranks, by the numbers of Numbering.
   Cycle::Solution solve_together(const algebra::Vector& b, double tolerance) {

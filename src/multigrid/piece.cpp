@@ -88,7 +88,12 @@ void visit_all(Piece& p, Visit&& visit) {
   p.block = sizes[0], p.dimension = sizes[1], p.motions = sizes[2];
   p.functions.resize(static_cast<std::size_t>(sizes[3]));
   visit(p.own);
-  for (Triangle* t : {&p.matrix, &p.coarser, &p.displaced}) visit(t->columns), visit(t->starts), visit(t->rows), visit(t->values);
+  for (HalfRows* rows : {&p.matrix, &p.coarser, &p.displaced}) {
+    std::vector<int> numbers{rows->block, rows->first};
+    visit(numbers);
+    rows->block = numbers[0], rows->first = numbers[1];
+    visit(rows->starts), visit(rows->columns), visit(rows->below), visit(rows->diagonal), visit(rows->other_starts), visit(rows->others), visit(rows->other);
+  }
   for (Rows& functions : p.functions) visit_rows(functions, visit);
   visit_rows(p.unknowns, visit);
   visit(p.modes);
@@ -118,11 +123,11 @@ Pieces::Pieces(const Matrix& matrix, const Numbering& numbering) : matrix_(matri
   else displaced_ = source(*matrix.displaced, numbering.slot(), numbering.idle());
 }
 
-Source Pieces::source(const algebra::SparseMatrix& lower, std::vector<int> slot, std::vector<int> idle) {
+Pieces::Source Pieces::source(const algebra::SparseMatrix& lower, std::vector<int> slot, std::vector<int> idle) {
   return {&lower, std::move(slot), std::move(idle), mean_diagonal(lower)};
 }
 
-Source Pieces::coarser() const {
+Pieces::Source Pieces::coarser() const {
   const algebra::SparseRows& functions = matrix_.coarse->front();
   std::vector<char> used(static_cast<std::size_t>(functions.cols()), 0);
   for (int i = 0; i < functions.rows(); ++i)
@@ -133,29 +138,20 @@ Source Pieces::coarser() const {
   return source(*matrix_.coarser, std::move(slot), std::move(idle));
 }
 
-Triangle Pieces::triangle_of(int rank, const Source& source, int level) const {
-  Triangle out;
-  if (!source.lower) return out;
-  if (rank == 0) {
-    out.source = &source;
-    return out;
-  }
+HalfRows Pieces::rows_of(int rank, const Source& source, int level, int block) const {
+  if (!source.lower) return {};
+  const algebra::SparseMatrix& lower = *source.lower;
+  const std::vector<int>& slot = source.slot;
   const Range range = range_of(rank, numbering_, level);
-  Triangle all;
-  all.source = &source;
-  const auto each_of_rank = [&](auto&& visit) {
-    all.each([&](int i, int j, double value) {
-      if (range.has(i) || range.has(j)) visit(i, j, value);
-    });
-  };
-  std::size_t entries = 0;
-  each_of_rank([&](int, int, double) { ++entries; });
-  out.rows.reserve(entries), out.values.reserve(entries);
-  each_of_rank([&](int i, int j, double value) {
-    if (out.columns.empty() || out.columns.back() != j) out.columns.push_back(j), out.starts.push_back(out.starts.back());
-    out.rows.push_back(i), out.values.push_back(value), ++out.starts.back();
+  return half_rows(block, range.first / block, range.count() / block, [&](auto&& visit) {
+    for (int j = 0; j < lower.cols(); ++j) {
+      const int column = slot[j];
+      for (int k = lower.outerIndexPtr()[j]; k < lower.outerIndexPtr()[j + 1]; ++k)
+        if (const int row = slot[lower.innerIndexPtr()[k]]; range.has(row) || range.has(column)) visit(row, column, lower.valuePtr()[k]);
+    }
+    for (const int i : source.idle)
+      if (range.has(i)) visit(i, i, source.mean);
   });
-  return out;
 }
 
 Piece Pieces::of(int rank) const {
@@ -168,7 +164,7 @@ Piece Pieces::of(int rank) const {
                                     range_of(rank, numbering_, l)));
   if (matrix_.unknowns) p.unknowns = some_rows(*matrix_.unknowns, &numbering_.slot(), &numbering_.slot(), range_of(rank, numbering_, 0), numbering_.idle());
   p.modes = some_modes(matrix_.near_kernel, meshes > 0 ? numbering_.functions(meshes) : numbering_.slot(), range_of(rank, numbering_, meshes));
-  p.matrix = triangle_of(rank, finest_, 0), p.coarser = triangle_of(rank, coarser_, 1), p.displaced = triangle_of(rank, displaced_, 0);
+  p.matrix = rows_of(rank, finest_, 0, p.block), p.coarser = rows_of(rank, coarser_, 1, p.dimension), p.displaced = rows_of(rank, displaced_, 0, p.block);
   return p;
 }
 

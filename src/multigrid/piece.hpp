@@ -3,51 +3,22 @@
 
 #include <vector>
 
+#include "multigrid/half_matrix.hpp"
 #include "multigrid/numbering.hpp"
 #include "multigrid/ranks.hpp"
 #include "multigrid/rows.hpp"
 
 namespace dotyk::multigrid {
 
-/// The lower triangle of a matrix of one level, and its place among the rows of all ranks.
-struct Source {
-  const algebra::SparseMatrix* lower = nullptr;
-  std::vector<int> slot, idle;  ///< number of each row of the triangle; numbers of the rows without unknown
-  double mean = 0;              ///< of the diagonal
-};
-
-/// The entries that the rows of one rank are made from, by the numbers of Numbering. Those of other ranks than 0 are copied: half of their rows' entries.
-struct Triangle {
-  const Source* source = nullptr;             ///< where they are not copied: all entries
-  std::vector<int> columns, starts{0}, rows;  ///< of entries; columns one after the other
-  std::vector<double> values;
-
-  bool empty() const { return !source && columns.empty(); }
-  /// Calls visit(row, column, number), column by column; idle rows have the mean of the diagonal there.
-  template <class Visit>
-  void each(const Visit& visit) const {
-    if (source) {
-      const algebra::SparseMatrix& lower = *source->lower;
-      for (int j = 0; j < lower.cols(); ++j)
-        for (int k = lower.outerIndexPtr()[j]; k < lower.outerIndexPtr()[j + 1]; ++k)
-          visit(source->slot[lower.innerIndexPtr()[k]], source->slot[j], lower.valuePtr()[k]);
-      for (const int i : source->idle) visit(i, i, source->mean);
-    } else {
-      for (std::size_t j = 0; j < columns.size(); ++j)
-        for (int k = starts[j]; k < starts[j + 1]; ++k) visit(rows[k], columns[j], values[k]);
-    }
-  }
-};
-
-/// What the rows of one rank are made from, by the numbers of Numbering.
+/// What one rank is given, by the numbers of Numbering.
 struct Piece {
   int block = 1, dimension = 3;  ///< unknowns of a node: on the finest level, on coarser meshes
   int motions = 0;               ///< columns of `modes`
   std::vector<int> own;          ///< how many rows of each level are this rank's
-  Triangle matrix;               ///< idle rows have the mean of its diagonal
+  HalfRows matrix;               ///< idle rows have the mean of its diagonal
   std::vector<Rows> functions;   ///< of each coarser mesh
-  Triangle coarser;              ///< the matrix of the next coarser mesh, idle where functions are empty. Empty where it is not known
-  Triangle displaced;            ///< as in Matrix, where there are no coarser meshes; idle rows as in `matrix`
+  HalfRows coarser;              ///< the matrix of the next coarser mesh, idle where functions are empty. No rows where it is not known
+  HalfRows displaced;            ///< as in Matrix, where there are no coarser meshes; idle rows as in `matrix`
   Rows unknowns;                 ///< as in Matrix; idle rows as in the identity. No rows where it has none
   std::vector<double> modes;     ///< near kernel, by columns: on the finest level, or the coarsest mesh
 };
@@ -57,15 +28,18 @@ class Pieces {
  public:
   /// Throws std::runtime_error where no pieces can be made: a diagonal that is not positive, a matrix that is no lower triangle.
   Pieces(const Matrix& matrix, const Numbering& numbering);
-  Pieces(const Pieces&) = delete;
-  Pieces& operator=(const Pieces&) = delete;
-  /// That of rank 0 is valid as long as this object.
   Piece of(int rank) const;
 
  private:
+  /// The lower triangle of a matrix of one level.
+  struct Source {
+    const algebra::SparseMatrix* lower = nullptr;
+    std::vector<int> slot, idle;  ///< number of each row of the triangle; numbers of the rows without unknown
+    double mean = 0;              ///< of the diagonal
+  };
   static Source source(const algebra::SparseMatrix& lower, std::vector<int> slot, std::vector<int> idle);
   Source coarser() const;
-  Triangle triangle_of(int rank, const Source& source, int level) const;
+  HalfRows rows_of(int rank, const Source& source, int level, int block) const;
 
   const Matrix& matrix_;
   const Numbering& numbering_;

@@ -34,12 +34,12 @@ std::vector<int> places(const SparseRows& functions) {
   return place;
 }
 
+/// The columns that have a place alone: all that have entries.
 SparseRows with_columns(const SparseRows& functions, const std::vector<int>& place) {
-  algebra::Triplets kept;
-  for (int i = 0; i < functions.rows(); ++i)
-    for (SparseRows::InnerIterator it(functions, i); it; ++it) kept.emplace_back(i, place[it.col()], it.value());
-  const auto columns = std::count_if(place.begin(), place.end(), [](int p) { return p >= 0; });
-  return algebra::from_triplets<SparseRows>(functions.rows(), columns, kept);
+  std::vector<int> columns(functions.innerIndexPtr(), functions.innerIndexPtr() + functions.nonZeros());
+  for (int& column : columns) column = place[column];
+  const auto count = std::count_if(place.begin(), place.end(), [](int p) { return p >= 0; });
+  return Eigen::Map<const SparseRows>(functions.rows(), count, functions.nonZeros(), functions.outerIndexPtr(), columns.data(), functions.valuePtr());
 }
 
 SparseRows with_rows(const SparseRows& functions, const std::vector<int>& place) {
