@@ -8,6 +8,7 @@
 #include <mutex>
 #include <vector>
 
+#include "algebra/direct/blas_kernels.hpp"
 #include "base/memory.hpp"
 #include "base/parallel.hpp"
 
@@ -35,6 +36,7 @@ int all_threads() {
 
 void reserve_blas_buffer() {
   static const bool taken = [] {
+    choose_blas_kernels();
     require_memory(160e6, "the first product of matrices");  // 128 MiB, and what the allocator takes beside them
     double a = 1;
     const int n = 1;
