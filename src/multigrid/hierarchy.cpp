@@ -107,11 +107,6 @@ OwnedMat product(Mat S, Mat P) {
   return m;
 }
 
-/// The most unknowns of a coarsest mesh that is solved by a factor, where the finest mesh has `unknowns`. Aggregates follow a larger one; they converge more
-/// slowly than meshes. A factor of n unknowns takes some 8 n² operations in space. With Coulomb friction on 76³ cells, whose coarsest mesh has 19³, a
-/// factor needs 30 iterations and aggregates 37.
-double most_by_factor(double unknowns) { return std::clamp(std::sqrt(500 * unknowns), 2e3, 25e3); }
-
 }  // namespace
 
 Hierarchy::Hierarchy(const Ranks& ranks, Piece piece, const Change& first) : ranks_(ranks), piece_(std::move(piece)) {
@@ -132,7 +127,7 @@ void Hierarchy::coarsen() {
   if (!ranks_.all(same)) S = oblong(piece_.unknowns, piece_.own[0], {piece_.block, piece_.block});
   if (!piece_.functions.empty()) {
     take_functions(S);
-    if (ranks_.sum(piece_.own.back()) > most_by_factor(ranks_.sum(piece_.own[0]))) {
+    if (aggregates_follow(ranks_.sum(piece_.own.back()), ranks_.sum(piece_.own[0]))) {
       fill_coarse();
       take_aggregates(matrices_.back());
     }

@@ -2,6 +2,7 @@
 // the first solver is made.
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <memory>
 #include <vector>
@@ -17,8 +18,8 @@ struct Matrix {
   const algebra::SparseMatrix& lower;        ///< lower triangle, compressed, columns sorted, no unknown held; positive definite but for `changed`
   const std::vector<int>& node;              ///< of each unknown, ascending, as in problem::Block::node
   /// A column for each rigid motion; there may be none. Rows are unknowns or, where there are coarser meshes, the functions of the coarsest. All bodies
-  /// move as one, so that there are six: each column is an unknown of every aggregate.
-  const algebra::DenseMatrix& near_kernel;
+  /// move as one, so that there are six: each column is an unknown of every aggregate. Called where there are aggregates.
+  std::function<algebra::DenseMatrix()> near_kernel;
   /// Where the unknowns u' of `lower` are others than the displacements u that `near_kernel` and `coarse` are of, as jumps between bodies: the matrix for
   /// u, lower triangle, whose aggregates the hierarchy takes, and S with u' = S u.
   const algebra::SparseMatrix* displaced = nullptr;

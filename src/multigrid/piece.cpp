@@ -1,6 +1,7 @@
 #include "multigrid/piece.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <tuple>
 #include <utility>
@@ -113,11 +114,15 @@ Whole receive_whole(const Ranks& ranks, int from) {
 
 }  // namespace
 
+bool aggregates_follow(double coarsest_unknowns, double finest_unknowns) { return coarsest_unknowns > std::clamp(std::sqrt(500 * finest_unknowns), 2e3, 25e3); }
+
 Pieces::Pieces(const Matrix& matrix, const Numbering& numbering) : matrix_(matrix), numbering_(numbering) {
   if (!matrix.lower.isCompressed() || static_cast<std::size_t>(matrix.lower.rows()) != matrix.node.size())
     throw std::runtime_error("multigrid: the matrix is not compressed, or nodes are not given for each unknown");
   finest_ = source(matrix.lower, numbering.slot(), numbering.idle());
   if (matrix.coarser) coarser_ = coarser();
+  const int meshes = matrix.coarse ? static_cast<int>(matrix.coarse->size()) : 0;
+  if (meshes == 0 || aggregates_follow(numbering.first(meshes).back(), numbering.first(0).back())) near_kernel_ = matrix.near_kernel();
   if (!matrix.displaced) return;
   if (matrix.coarse) mean_diagonal(*matrix.displaced);
   else displaced_ = source(*matrix.displaced, numbering.slot(), numbering.idle());
@@ -157,13 +162,13 @@ HalfRows Pieces::rows_of(int rank, const Source& source, int level, int block) c
 Piece Pieces::of(int rank) const {
   const int meshes = matrix_.coarse ? static_cast<int>(matrix_.coarse->size()) : 0;
   Piece p;
-  p.block = numbering_.block(), p.dimension = matrix_.dimension, p.motions = static_cast<int>(matrix_.near_kernel.cols());
+  p.block = numbering_.block(), p.dimension = matrix_.dimension, p.motions = static_cast<int>(near_kernel_.cols());
   for (int l = 0; l <= meshes; ++l) p.own.push_back(range_of(rank, numbering_, l).count());
   for (int l = 0; l < meshes; ++l)
     p.functions.push_back(some_rows((*matrix_.coarse)[l], l == 0 ? &numbering_.slot() : &numbering_.functions(l), &numbering_.functions(l + 1),
                                     range_of(rank, numbering_, l)));
   if (matrix_.unknowns) p.unknowns = some_rows(*matrix_.unknowns, &numbering_.slot(), &numbering_.slot(), range_of(rank, numbering_, 0), numbering_.idle());
-  p.modes = some_modes(matrix_.near_kernel, meshes > 0 ? numbering_.functions(meshes) : numbering_.slot(), range_of(rank, numbering_, meshes));
+  p.modes = some_modes(near_kernel_, meshes > 0 ? numbering_.functions(meshes) : numbering_.slot(), range_of(rank, numbering_, meshes));
   p.matrix = rows_of(rank, finest_, 0, p.block), p.coarser = rows_of(rank, coarser_, 1, p.dimension), p.displaced = rows_of(rank, displaced_, 0, p.block);
   return p;
 }

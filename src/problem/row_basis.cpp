@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <unordered_map>
 #include <utility>
 
 namespace dotyk::problem {
@@ -27,18 +28,30 @@ constexpr std::size_t kMostFill = 4;
 /// Gauss–Jordan elimination of one unknown for every row, as long as that makes none reach too far.
 class Elimination {
  public:
-  explicit Elimination(const Problem& problem) : problem_(problem), n_(problem.unknowns()), shared_(n_, 0), solved_(n_), most_(n_, 0), in_(n_) {
+  explicit Elimination(const Problem& problem) : problem_(problem), n_(problem.unknowns()) {
     for (int r = 0; r < problem.rows(); ++r)
-      for (SparseRows::InnerIterator it(problem.B, r); it; ++it) shared_[it.col()] += it.value() != 0;
+      for (SparseRows::InnerIterator it(problem.B, r); it; ++it) shared_[static_cast<int>(it.col())] += it.value() != 0;
   }
 
   RowBasis operator()() {
     RowBasis basis;
     for (int r = 0; r < problem_.rows(); ++r) basis.unknown.push_back(eliminate(r));
+    const auto column = [&](int index) { return index < n_ ? index : basis.unknown[index - n_]; };
+    const bool alone = std::ranges::all_of(solved_, [&](const auto& of) {
+      const auto& [j, solved] = of;
+      return solved.terms.size() == 1 && column(solved.terms.begin()->first) == j && solved.terms.begin()->second == 1;
+    });
+    if (alone) {  // as with one body on a rigid one: no list of all entries
+      basis.T.resize(n_, n_);
+      basis.T.setIdentity();
+      return basis;
+    }
     algebra::Triplets entries;
     for (int j = 0; j < n_; ++j) {
-      if (solved_[j].empty()) entries.emplace_back(j, j, 1);
-      for (const auto& [index, value] : solved_[j]) entries.emplace_back(j, index < n_ ? index : basis.unknown[index - n_], value);
+      const auto solved = solved_.find(j);
+      if (solved == solved_.end()) entries.emplace_back(j, j, 1);
+      else
+        for (const auto& [index, value] : solved->second.terms) entries.emplace_back(j, column(index), value);
     }
     basis.T = algebra::from_triplets(n_, n_, entries);
     return basis;
@@ -46,6 +59,10 @@ class Elimination {
 
  private:
   using Terms = std::map<int, double>;  ///< factors of free unknowns and, after these, of what rows make
+  struct Solved {
+    Terms terms;
+    std::size_t most = 0;  ///< terms that it may have
+  };
 
   int eliminate(int row) {
     Terms terms;
@@ -73,21 +90,22 @@ class Elimination {
   bool solve_for(int own, Terms terms, std::size_t most) {
     std::vector<std::pair<int, Terms>> changed;
     for (const int other : in_[own]) {
-      Terms now = solved_[other];
+      Terms now = solved_[other].terms;
       const double factor = now[own];
       now.erase(own);
       for (const auto& [index, value] : terms) now[index] += factor * value;
       drop_nothing(now);
-      if (now.size() > most_[other]) return false;
+      if (now.size() > solved_[other].most) return false;
       changed.emplace_back(other, std::move(now));
     }
     changed.emplace_back(own, std::move(terms));
-    most_[own] = most;
+    solved_[own].most = most;
     for (auto& [other, now] : changed) {
       for (const auto& [index, value] : now)
         if (index < n_ && std::find(in_[index].begin(), in_[index].end(), other) == in_[index].end()) in_[index].push_back(other);
-      terms_ += now.size() - std::min(now.size(), solved_[other].size());
-      solved_[other] = std::move(now);
+      Terms& before = solved_[other].terms;
+      terms_ += now.size() - std::min(now.size(), before.size());
+      before = std::move(now);
     }
     in_[own].clear();
     return true;
@@ -99,8 +117,9 @@ class Elimination {
 
   /// Adds the unknown's multiple, by what it was solved for, where it was.
   void add(Terms& terms, int unknown, double factor) const {
-    if (solved_[unknown].empty()) terms[unknown] += factor;
-    for (const auto& [index, value] : solved_[unknown]) terms[index] += factor * value;
+    const auto solved = solved_.find(unknown);
+    if (solved == solved_.end()) return void(terms[unknown] += factor);
+    for (const auto& [index, value] : solved->second.terms) terms[index] += factor * value;
   }
 
   int pick(const Terms& terms, double greatest) const {
@@ -112,7 +131,7 @@ class Elimination {
     double of_best = 0;
     for (const auto& [index, value] : terms) {
       if (index >= n_ || !(std::abs(value) >= kLeastFactor * most)) continue;
-      const int fewer = best < 0 ? 1 : shared_[best] - shared_[index];
+      const int fewer = best < 0 ? 1 : shared_.at(best) - shared_.at(index);
       if (fewer > 0 || (fewer == 0 && std::abs(value) > of_best)) best = index, of_best = std::abs(value);
     }
     return best;
@@ -120,11 +139,11 @@ class Elimination {
 
   const Problem& problem_;
   const int n_;
-  std::vector<int> shared_;           ///< rows that an unknown is in
-  std::vector<Terms> solved_;         ///< by unknown; empty: free
-  std::vector<std::size_t> most_;     ///< terms that it may have
-  std::size_t terms_ = 0;             ///< of all together
-  std::vector<std::vector<int>> in_;  ///< by free unknown: those in whose terms it stands
+  // By unknown: few of all are in rows.
+  std::unordered_map<int, int> shared_;           ///< rows that it is in
+  std::map<int, Solved> solved_;                  ///< those that are not free
+  std::unordered_map<int, std::vector<int>> in_;  ///< of a free one those in whose terms it stands
+  std::size_t terms_ = 0;                         ///< of all together
 };
 
 }  // namespace

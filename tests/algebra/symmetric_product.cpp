@@ -55,3 +55,40 @@ TEST_CASE("PᵀAP is the same to the last bit on one core and on several") {
   CHECK(std::equal(one.valuePtr(), one.valuePtr() + one.nonZeros(), several.valuePtr()));
   CHECK(std::equal(one.innerIndexPtr(), one.innerIndexPtr() + one.nonZeros(), several.innerIndexPtr()));
 }
+
+TEST_CASE("PᵀAP is that of dense matrices: components of nodes alike, some of them, none") {
+  test::Random random(8);
+  constexpr int kNodes = 24, kCoarse = 7;
+  for (const int components : {1, 2, 3, 4})
+    for (const double dropped : {0.0, 0.2}) {  // entries of A, so that columns of a node are not alike, and of P
+      const int n = kNodes * components, m = kCoarse * components;
+      algebra::DenseMatrix A = algebra::DenseMatrix::Zero(n, n), P = algebra::DenseMatrix::Zero(n, m);
+      const auto kept = [&] { return random.between(0, 1) >= dropped; };
+      for (int a = 0; a < kNodes; ++a)
+        for (int b = std::max(0, a - 3); b <= a; ++b)
+          for (int i = 0; i < components; ++i)
+            for (int j = 0; j < components; ++j)
+              if (const int r = a * components + i, c = b * components + j; c <= r && kept()) A(r, c) = A(c, r) = random.between(-1, 1);
+      for (int a = 0; a < kNodes; ++a)
+        for (int k = 0; k < 2; ++k) {
+          const double factor = random.between(0.1, 1);
+          const int J = std::min(kCoarse - 1, a * kCoarse / kNodes + k);
+          for (int i = 0; i < components; ++i)
+            if (kept()) P(a * components + i, J * components + i) = factor;
+        }
+      const SparseMatrix lower = algebra::DenseMatrix(A.triangularView<Eigen::Lower>()).sparseView(), sparse = P.sparseView();
+      const SparseMatrix product = algebra::congruent(lower, sparse), by_rows = algebra::congruent(lower, algebra::SparseRows(sparse));
+      const algebra::DenseMatrix exact = (P.transpose() * A * P).eval().triangularView<Eigen::Lower>();
+      CAPTURE(components);
+      CAPTURE(dropped);
+      CHECK((algebra::DenseMatrix(product) - exact).lpNorm<Eigen::Infinity>() <= 1e-14 * exact.lpNorm<Eigen::Infinity>());
+      CHECK((algebra::DenseMatrix(by_rows) - algebra::DenseMatrix(product)).norm() == 0);
+      for (int j = 0; j < m; ++j) {
+        int before = j - 1;  // rows ascend, from the diagonal on
+        for (SparseMatrix::InnerIterator it(product, j); it; ++it) {
+          CHECK(it.row() > before);
+          before = static_cast<int>(it.row());
+        }
+      }
+    }
+}

@@ -51,7 +51,7 @@ TEST_CASE("a coarser matrix that is known stands for the one that would be compu
   const std::vector<SparseRows> coarse{functions_of(cube, n, false)};
   const algebra::SparseMatrix coarser = algebra::congruent(cube.lower, functions_of(cube, n, true));
   const algebra::DenseMatrix motions(coarse[0].cols(), 0);
-  multigrid::Matrix matrix{cube.lower, cube.node, motions};
+  multigrid::Matrix matrix{cube.lower, cube.node, [&] { return motions; }};
   matrix.coarse = &coarse;
   const auto computed = multigrid::make_solver(matrix, monitor);
   matrix.coarser = &coarser;

@@ -31,7 +31,7 @@ TEST_CASE("where the library was not built, what to install is said") {
   if (multigrid::available()) return;
   Monitor monitor;
   const auto cube = test::cube_on_its_bottom(2);
-  CHECK_THROWS_WITH_AS(multigrid::make_solver({cube.lower, cube.node, cube.motions}, monitor), doctest::Contains("libpetsc-real-dev"), InputError);
+  CHECK_THROWS_WITH_AS(multigrid::make_solver({cube.lower, cube.node, [&] { return cube.motions; }}, monitor), doctest::Contains("libpetsc-real-dev"), InputError);
 }
 
 TEST_CASE("signal handlers stay the program's") {
@@ -40,7 +40,7 @@ TEST_CASE("signal handlers stay the program's") {
   const auto expected = signal_actions();
   Monitor monitor;
   const auto cube = test::cube_on_its_bottom(3);
-  const auto solver = multigrid::make_solver({cube.lower, cube.node, cube.motions}, monitor);
+  const auto solver = multigrid::make_solver({cube.lower, cube.node, [&] { return cube.motions; }}, monitor);
   const auto found = signal_actions();
   for (int s = 1; s < 32; ++s) CHECK((found[s].sa_handler == expected[s].sa_handler));
   CHECK((found[SIGINT].sa_handler == on_interrupt));
@@ -54,7 +54,7 @@ TEST_CASE("several solvers at once, from several threads, ended in any order") {
   std::vector<std::unique_ptr<algebra::SpdSolver>> solvers;
   for (const int n : {3, 6, 4}) {
     cubes.push_back(test::cube_on_its_bottom(n));
-    solvers.push_back(multigrid::make_solver({cubes.back().lower, cubes.back().node, cubes.back().motions}, monitor));
+    solvers.push_back(multigrid::make_solver({cubes.back().lower, cubes.back().node, [&] { return cubes.back().motions; }}, monitor));
   }
   const auto solve = [&](std::size_t k) {
     const std::vector<char> held(cubes[k].node.size(), 0);
@@ -89,12 +89,12 @@ TEST_CASE("new numbers, and solvers that come and go, take no more memory each t
     const struct mallinfo2 info = mallinfo2();
     return static_cast<double>(info.uordblks + info.hblkhd);
   };
-  const auto solver = multigrid::make_solver({cube.lower, cube.node, cube.motions}, monitor);
+  const auto solver = multigrid::make_solver({cube.lower, cube.node, [&] { return cube.motions; }}, monitor);
   run(*solver, 10);
   const double before = used();
   run(*solver, 100);
   CHECK(used() - before < 0.5 * solver->bytes() / 100 + 10e3);
-  for (int k = 0; k < 20; ++k) run(*multigrid::make_solver({cube.lower, cube.node, cube.motions}, monitor), 1);
+  for (int k = 0; k < 20; ++k) run(*multigrid::make_solver({cube.lower, cube.node, [&] { return cube.motions; }}, monitor), 1);
   CHECK(used() - before < 0.5 * solver->bytes());
 }
 #endif

@@ -17,7 +17,7 @@ using test::ElasticCube;
 namespace {
 
 std::unique_ptr<algebra::SpdSolver> solver_of(const ElasticCube& cube, Monitor& monitor) {
-  return multigrid::make_solver({cube.lower, cube.node, cube.motions}, monitor);
+  return multigrid::make_solver({cube.lower, cube.node, [&] { return cube.motions; }}, monitor);
 }
 
 std::vector<char> none(const ElasticCube& cube) { return std::vector<char>(cube.node.size(), 0); }
@@ -126,9 +126,62 @@ TEST_CASE("without a near kernel, with dependent modes, of one unknown a node, o
     compare(small, *solver_of(small, monitor), none(small));
   }
   const algebra::SparseMatrix nothing(0, 0);
-  const auto empty = multigrid::make_solver({nothing, {}, algebra::DenseMatrix(0, 6)}, monitor);
+  const auto empty = multigrid::make_solver({nothing, {}, [] { return algebra::DenseMatrix(0, 6); }}, monitor);
   CHECK(empty->set({}, {}));
   CHECK(empty->solve(Vector(), 1e-8).size() == 0);
+}
+
+namespace {
+
+/// Nodes of a square grid, of so many unknowns each, held at one end and joined to their neighbours by springs of all directions.
+ElasticCube springs(int edge, int unknowns, double unit, test::Random& random) {
+  ElasticCube net;
+  const int count = edge * edge * unknowns;
+  algebra::DenseMatrix K = algebra::DenseMatrix::Zero(count, count);
+  const auto join = [&](int a, int b) {
+    const algebra::DenseMatrix spring = unit * random.positive_definite(unknowns, 1);
+    K.block(a * unknowns, a * unknowns, unknowns, unknowns) += spring;
+    if (b < 0) return;
+    K.block(b * unknowns, b * unknowns, unknowns, unknowns) += spring;
+    K.block(a * unknowns, b * unknowns, unknowns, unknowns) -= spring;
+    K.block(b * unknowns, a * unknowns, unknowns, unknowns) -= spring;
+  };
+  for (int y = 0; y < edge; ++y)
+    for (int x = 0; x < edge; ++x) {
+      const int node = y * edge + x;
+      for (int k = 0; k < unknowns; ++k) net.node.push_back(node);
+      if (y == 0) join(node, -1);
+      if (x > 0) join(node, node - 1);
+      if (y > 0) join(node, node - edge);
+    }
+  net.lower = algebra::DenseMatrix(K.triangularView<Eigen::Lower>()).sparseView();
+  net.motions = algebra::DenseMatrix::Identity(unknowns, unknowns).replicate(edge * edge, 1);
+  return net;
+}
+
+}  // namespace
+
+TEST_CASE("nodes of one to six unknowns, in any unit: the direct solution") {
+  if (test::not_built()) return;
+  Monitor monitor;
+  for (const int unknowns : {1, 2, 3, 4, 5, 6}) {
+    CAPTURE(unknowns);
+    std::vector<int> iterations;
+    for (const double unit : {1.0, 0x1p-400, 0x1p+400}) {  // beyond floats
+      test::Random random(9);
+      const ElasticCube net = springs(12, unknowns, unit, random);
+      const auto solver = solver_of(net, monitor);
+      const Vector b = random.vector(static_cast<int>(net.node.size()));
+      REQUIRE(solver->set({}, none(net)));
+      const Vector x = solver->solve(b, 1e-12), exact = direct(net.lower, net.node, b);
+      CHECK((x - exact).norm() <= 1e-9 * exact.norm());  // the condition is some 10³
+      iterations.push_back(solver->iterations());
+    }
+    CHECK(iterations[0] <= 40);
+    CHECK(iterations == std::vector(3, iterations[0]));
+  }
+  test::Random random(9);
+  CHECK_THROWS_WITH(solver_of(springs(4, 7, 1, random), monitor), doctest::Contains("more than six unknowns"));
 }
 
 TEST_CASE("matrices that are not definite, or of another pattern") {

@@ -212,9 +212,11 @@ MakeSpdSolver multigrid(Levels levels, double most_iterations) {
   return [levels, most_iterations](const SpdSystem& s) -> std::unique_ptr<algebra::SpdSolver> {
     const std::vector<int> nodes = problem::nodes(s.problem);
     const auto coarse = levels == Levels::meshes ? problem::coarse_functions(s.problem) : std::vector<SparseRows>();
-    DenseMatrix motions = all_rigid_motions(s.problem);
-    for (const SparseRows& functions : coarse) motions = problem::at_coarse(functions, motions);
-    multigrid::Matrix matrix{s.lower, nodes, motions};
+    multigrid::Matrix matrix{s.lower, nodes, [&] {
+                               DenseMatrix motions = all_rigid_motions(s.problem);
+                               for (const SparseRows& functions : coarse) motions = problem::at_coarse(functions, motions);
+                               return motions;
+                             }};
     matrix.changed = &s.changed;
     matrix.most_iterations = most_iterations;
     if (!coarse.empty()) matrix.coarse = &coarse, matrix.dimension = s.problem.blocks[0].coarse.dimension, matrix.coarser = s.coarser;
