@@ -138,14 +138,8 @@ void Cycle::descend(std::size_t l, Vec b, Vec x) {
 
 /// A second sweep costs little where a level has few unknowns. On the second coarser mesh and below (1/64 of the unknowns) it saves a tenth of the
 /// iterations with friction: 28 instead of 31 on a cube of 64³ cells. Where aggregates follow the coarsest mesh, they converge more slowly than meshes, and a
-/// second sweep from that mesh on saves a fifth: 22 instead of 27 on 76³ cells, with aggregates below 19³. During a sweep a rank uses the values that other
-/// ranks had before it. Where each rank has few unknowns, most of them are coupled to other ranks, and the second sweep begins one level earlier.
-int Cycle::first_swept_twice() {
-  constexpr double kFew = 20'000;  // unknowns of a rank
-  if (hierarchy_.meshes() == 0) return levels();  // none: aggregates alone
-  if (ranks_.alone()) return std::min(hierarchy_.meshes(), 2);
-  return std::min(hierarchy_.meshes(), ranks_.sum(hierarchy_.matrix(1).rows()) < kFew * ranks_.count() ? 1 : 2);
-}
+/// second sweep from that mesh on saves a fifth: 22 instead of 27 on 76³ cells, with aggregates below 19³.
+int Cycle::first_swept_twice() const { return hierarchy_.meshes() == 0 ? levels() : std::min(hierarchy_.meshes(), 2); }
 
 void Cycle::take_coarsest() {
   HalfMatrix& coarsest = hierarchy_.matrix(levels() - 1);

@@ -45,7 +45,7 @@ class Cycle {
   /// x = M⁻¹ b, M the V-cycle from this level on.
   void descend(std::size_t level, Vec b, Vec x);
   void make();
-  int first_swept_twice();  ///< the level
+  int first_swept_twice() const;  ///< the level
   void take_coarsest();     ///< numbers
 
   const Ranks ranks_;

@@ -20,11 +20,13 @@ void Sweeps::set(double omega) {
       const Block D = Eigen::Map<const Block>(of.diagonal + at, of.size, of.size);
       Block inverse = D.diagonal().cwiseInverse().asDiagonal();
       if (const Eigen::LLT<Block> factor(D); factor.info() == Eigen::Success) inverse = factor.solve(Block::Identity(of.size, of.size));
-      Eigen::Map<Block>(inverse_.data() + at, of.size, of.size) = omega / 2 * (inverse + inverse.transpose());
+      Eigen::Map<Block>(inverse_.data() + at, of.size, of.size) = (inverse + inverse.transpose()) / 2;
     }
   };
   if (of.size == 3) invert.operator()<3>();
   else invert.operator()<Eigen::Dynamic>();
+  for (const int node : A_.border())
+    for (std::size_t k = 0; k < square; ++k) inverse_[node * square + k] *= omega;
 }
 
 HalfBlocks<float> Sweeps::half() const {
@@ -39,15 +41,61 @@ void Sweeps::forward(const double* b, double* x, double* left) {
   own.give(x);
   remaining.give(left);
   A_.times_others(x, [&](int row, double number) { left[row] -= number; });
+  sweep_border_forward(x, left);
 }
 
 void Sweeps::backward(const double* b, double* x) {
+  sweep_border_backward(b, x);
   auto& [own, remaining] = A_.room();
   remaining.take(b);
   own.take(x);
   A_.times_others(x, [&](int row, double number) { remaining[row] -= number; });
   sweep_backward(half(), inverse_.data(), remaining, own);
   own.give(x);
+}
+
+namespace {
+
+/// to += factor × a block of n rows times x.
+void add_product(int n, const double* block, HalfMatrix::Read read, double factor, const double* x, double* to) {
+  const int along = read == HalfMatrix::Read::transposed ? n : 1, across = n + 1 - along;
+  for (int r = 0; r < n; ++r)
+    for (int c = 0; c < n; ++c) to[r] += factor * block[r * across + c * along] * x[c];
+}
+
+}  // namespace
+
+void Sweeps::sweep_border_forward(double* x, double* left) {
+  if (A_.ranks().alone()) return;
+  const int n = A_.block();
+  changes_.assign(static_cast<std::size_t>(A_.rows()), 0.0);
+  for (const int node : A_.border()) {
+    double* change = changes_.data() + static_cast<std::size_t>(node) * n;
+    add_product(n, inverse_.data() + static_cast<std::size_t>(node) * n * n, HalfMatrix::Read::as_it_is, 1, left + static_cast<std::size_t>(node) * n, change);
+    for (int r = 0; r < n; ++r) x[static_cast<std::size_t>(node) * n + r] += change[r];
+    A_.each_block(node, [&](int other, const double* block, HalfMatrix::Read read) {  // the block of row `other` and column `node` is its transpose
+      const auto transposed = read == HalfMatrix::Read::transposed ? HalfMatrix::Read::as_it_is : HalfMatrix::Read::transposed;
+      if (other < A_.nodes()) add_product(n, block, transposed, -1, change, left + static_cast<std::size_t>(other) * n);
+    });
+  }
+  A_.times_others(changes_.data(), [&](int row, double number) { left[row] -= number; });
+}
+
+void Sweeps::sweep_border_backward(const double* b, double* x) {
+  if (A_.ranks().alone()) return;
+  const int n = A_.block();
+  changes_.assign(static_cast<std::size_t>(A_.rows()), 0.0);
+  A_.times_others(x, [&](int row, double number) { changes_[row] = number; });
+  double left[kMostRows];
+  for (std::size_t k = A_.border().size(); k-- > 0;) {
+    const int node = A_.border()[k];
+    const std::size_t first = static_cast<std::size_t>(node) * n;
+    for (int r = 0; r < n; ++r) left[r] = b[first + r] - changes_[first + r];
+    A_.each_block(node, [&](int other, const double* block, HalfMatrix::Read read) {
+      if (other < A_.nodes()) add_product(n, block, read, -1, x + static_cast<std::size_t>(other) * n, left);
+    });
+    add_product(n, inverse_.data() + first * n, HalfMatrix::Read::as_it_is, 1, left, x + first);
+  }
 }
 
 }  // namespace dotyk::multigrid

@@ -7,7 +7,8 @@
 
 namespace dotyk::multigrid {
 
-/// Relaxed sweeps over the nodes of each rank, block by block, which take the values that other ranks had before. They need a matrix roughly: they read what is
+/// Sweeps over the nodes of each rank, block by block, which take the values that other ranks had before; nodes that are coupled to other ranks are swept twice,
+/// the second time with these ranks' new values. They need a matrix roughly: they read what is
 /// beside its diagonal in single precision, as their time is that of reading it. Its numbers stay those of a symmetric matrix, so that a forward sweep
 /// before the coarse correction and a backward one after it make a symmetric cycle. Vectors: of own rows. All functions are collective, except
 /// bytes().
@@ -16,7 +17,7 @@ class Sweeps {
   /// `A` must outlive this.
   explicit Sweeps(HalfMatrix& A) : A_(A) {}
 
-  /// Takes the numbers of A, and the relaxation ω.
+  /// Takes the numbers of A, and the relaxation ω of nodes that are coupled to other ranks.
   void set(double omega);
   /// x = M⁻¹ b where M is a sweep, and left = b − A x, which costs nothing beside it. `left` may be `b`.
   void forward(const double* b, double* x, double* left);
@@ -26,16 +27,20 @@ class Sweeps {
 
  private:
   HalfBlocks<float> half() const;
+  void sweep_border_forward(double* x, double* left);
+  void sweep_border_backward(const double* b, double* x);
 
   HalfMatrix& A_;
   double unit_ = 1;  ///< of below_: a power of two that brings these numbers to about 1, within the range of floats
   std::vector<float> below_;
   std::vector<double> inverse_;
+  std::vector<double> changes_;  ///< of own rows
 };
 
-/// The relaxation factor ω of such sweeps; 1 on one rank. A = A_local + A_between, where A_between couples nodes of different ranks, and D has the blocks of the
-/// diagonal. The matrix M of a sweep satisfies M + Mᵀ − A = (2/ω − 1) D − A_between. If this is positive definite, the sweep converges and a V-cycle of it is
-/// positive definite (Baker, Falgout, Kolev and Yang, SIAM J. Sci. Comput. 33 (2011), §4). So ω = min(1, 2/(1 + c)) where c is the greatest eigenvalue of
+/// The relaxation factor ω of such sweeps at nodes that are coupled to other ranks; 1 on one rank. A = A_local + A_between, where A_between couples nodes of
+/// different ranks, and D has the blocks of the diagonal. The matrix M of a sweep satisfies M + Mᵀ − A = (2/ω − 1) D − A_between, where ω is 1 at other nodes. If
+/// this is positive definite, the sweep converges and a V-cycle of it is positive definite (Baker, Falgout, Kolev and Yang, SIAM J. Sci. Comput. 33 (2011),
+/// §4). So ω = min(1, 2/(1 + c)) where c is the greatest eigenvalue of
 /// D^−1/2 A_between D^−1/2, by Lanczos and 3 % more. c is below 1 if pieces are large, and up to 3.3 if most nodes of a rank are coupled to nodes of others.
 /// `solved`: rows of this rank, counted from its first, ascending, that are solved exactly as well; they are left out of the eigenvalue problem.
 /// Collective.
