@@ -1,5 +1,7 @@
 #include "multigrid/kernels.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <stdexcept>
@@ -163,6 +165,44 @@ void PaddedVector::take(const double* from) {
 void PaddedVector::give(double* to) const {
   for (std::size_t i = 0; i < numbers_.size(); i += width_, to += size_)
     for (int r = 0; r < size_; ++r) to[r] = numbers_[i + r];
+}
+
+namespace {
+
+/// False where the block is not positive definite.
+template <int rows>
+[[gnu::always_inline]] inline bool inverted(const double* block, double* inverse) {
+  double G[rows][rows] = {}, of_G[rows][rows] = {};  // the factor, G Gᵀ, and its inverse
+  for (int j = 0; j < rows; ++j)
+    for (int i = j; i < rows; ++i) {
+      double sum = block[i * rows + j];
+      for (int k = 0; k < j; ++k) sum -= G[i][k] * G[j][k];
+      if (i == j && !(sum > 0)) return false;
+      G[i][j] = i == j ? std::sqrt(sum) : sum / G[j][j];
+    }
+  for (int j = 0; j < rows; ++j)
+    for (int i = j; i < rows; ++i) {
+      double sum = i == j;
+      for (int k = j; k < i; ++k) sum -= G[i][k] * of_G[k][j];
+      of_G[i][j] = sum / G[i][i];
+    }
+  for (int i = 0; i < rows; ++i)
+    for (int j = 0; j < rows; ++j) {
+      double sum = 0;
+      for (int k = std::max(i, j); k < rows; ++k) sum += of_G[k][i] * of_G[k][j];
+      inverse[i * rows + j] = sum;
+    }
+  return true;
+}
+
+}  // namespace
+
+void invert(int rows, const double* block, double* inverse) {
+  bool done = false;
+  if (rows == 3) done = inverted<3>(block, inverse);
+  else dispatch(rows, [&]<int constant>() { done = inverted<constant>(block, inverse); });
+  if (done) return;
+  for (int k = 0; k < rows * rows; ++k) inverse[k] = k % (rows + 1) == 0 ? 1 / block[k] : 0;
 }
 
 void multiply(const HalfBlocks<double>& A, PaddedVector& x, PaddedVector& y) {

@@ -38,6 +38,10 @@ class PaddedVector {
   std::vector<double> numbers_;
 };
 
+/// The inverse of a symmetric block, by its Cholesky factor, so that it is positive definite; of its diagonal alone where the block is not. kMostRows rows at
+/// most.
+void invert(int rows, const double* block, double* inverse);
+
 /// y = A x.
 void multiply(const HalfBlocks<double>& A, PaddedVector& x, PaddedVector& y);
 

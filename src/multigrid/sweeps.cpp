@@ -1,6 +1,5 @@
 #include "multigrid/sweeps.hpp"
 
-#include <Eigen/Dense>
 #include <cmath>
 
 namespace dotyk::multigrid {
@@ -14,17 +13,7 @@ void Sweeps::set(double omega) {
   below_.resize(count + kSpare);
   for (std::size_t k = 0; k < count; ++k) below_[k] = static_cast<float>(of.below[k] / unit_);
   inverse_.resize(static_cast<std::size_t>(of.nodes()) * square);
-  const auto invert = [&]<int size>() {
-    using Block = Eigen::Matrix<double, size, size, Eigen::RowMajor>;
-    for (std::size_t at = 0; at < inverse_.size(); at += square) {
-      const Block D = Eigen::Map<const Block>(of.diagonal + at, of.size, of.size);
-      Block inverse = D.diagonal().cwiseInverse().asDiagonal();
-      if (const Eigen::LLT<Block> factor(D); factor.info() == Eigen::Success) inverse = factor.solve(Block::Identity(of.size, of.size));
-      Eigen::Map<Block>(inverse_.data() + at, of.size, of.size) = (inverse + inverse.transpose()) / 2;
-    }
-  };
-  if (of.size == 3) invert.operator()<3>();
-  else invert.operator()<Eigen::Dynamic>();
+  for (std::size_t at = 0; at < inverse_.size(); at += square) invert(of.size, of.diagonal + at, inverse_.data() + at);
   for (const int node : A_.border())
     for (std::size_t k = 0; k < square; ++k) inverse_[node * square + k] *= omega;
 }
