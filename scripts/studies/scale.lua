@@ -99,12 +99,13 @@ do
   local own <const> = all / ranks
   local edge <const> = (own / 3)^(1 / 3)  -- nodes
   local levels <const> = math.ceil(math.log((all / 3)^(1 / 3) / 8, 2))
-  -- A level has an eighth of the unknowns of the finer one. Each sends its faces in two sweeps, two products, and an interpolation up and down.
-  local exchanges <const>, neighbours <const>, latency <const>, bandwidth <const> = 6, 26, 2e-6, 1e10
-  local flops <const> = 45 * 2 * (2 * 1.5 + 2) * 8 / 7  -- 45 entries a row: two sweeps, of which one also computes what it starts from, two products
-  local halo <const> = 6 * edge^2 * 3 * 8 * exchanges * 4 / 3
-  local messages <const> = exchanges * neighbours * levels
-  local reductions <const> = 2 * math.ceil(math.log(ranks, 2)) * latency
+  -- A level has an eighth of the unknowns of the finer one. Each sends its faces twice in a sweep, and in an interpolation up and down: 6 times on the two finest
+  -- levels, 10 times below, where there are four sweeps. The finest level sends them once more for a product.
+  local neighbours <const>, latency <const>, bandwidth <const> = 26, 2e-6, 1e10
+  local flops <const> = 45 * 2 * (1 + 2 * 8 / 7)  -- 45 entries a row: a product on the finest level, two sweeps; without interpolation and borders
+  local halo <const> = 6 * edge^2 * 3 * 8 * (7 + 6 / 4 + 10 / 16 * 4 / 3)
+  local messages <const> = neighbours * (7 + 6 + 10 * (levels - 2))
+  local reductions <const> = 4 * math.ceil(math.log(ranks, 2)) * latency
   local network <const> = messages * latency + halo / bandwidth + reductions
   local bytes <const> = include "../lib/peak_memory.lua"() * 1e9 / unknowns
   print(("\nA billion unknowns on %d ranks, from the cube of %d³ cells (%d unknowns)"):format(ranks, last, unknowns))
@@ -118,6 +119,6 @@ do
   print(("coarsest level    %8.0f unknowns, on one rank; levels with less than a node a rank: %d"):format(all / 8^levels, sparse))
   print(("iterations        %8d in %d steps, if they stay as here: %.0f s"):format(its, s.multigrid.newton, its * (own * iteration + network)))
   print(("contact           %8.0f of %d ranks have nodes of the top; their share of rows decides about the other ranks' waiting"):format(ranks^(2 / 3), ranks))
-  print("What breaks first: sweeps of Gauss and Seidel stop at a rank's border, and iterations grow; then latency on the coarse levels, where ranks have less than "
-    .. "a node; then 32-bit indices, from 4.7e7 unknowns a process on")
+  print("What breaks first: rank 0, which has the mesh, the stiffness and the results of all, at 2e9 entries of the stiffness: 9e7 unknowns; then latency on the "
+    .. "coarse levels, where ranks have less than a node")
 end

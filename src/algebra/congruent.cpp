@@ -8,42 +8,18 @@
 
 #include "base/buckets.hpp"
 #include "base/parallel.hpp"
+#include "base/some_rows.hpp"
 
 namespace dotyk::algebra {
 namespace {
 
-constexpr int kAlike = 3;  ///< columns at a time
-
-/// Up to kAlike columns of numbers, most of which are 0.
-class SparseColumns {
- public:
-  explicit SparseColumns(Eigen::Index size) : value_(size * kAlike, 0.0), in_(size, 0) {}
-  double* at(int row) {
-    if (!in_[row]) in_[row] = 1, rows_.push_back(row);
-    return value_.data() + static_cast<std::ptrdiff_t>(row) * kAlike;
-  }
-  /// Visits rows and their numbers, and forgets them.
-  template <class Visit>
-  void empty(const Visit& visit) {
-    for (const int row : rows_) {
-      double* numbers = value_.data() + static_cast<std::ptrdiff_t>(row) * kAlike;
-      visit(row, numbers);
-      std::fill_n(numbers, kAlike, 0.0), in_[row] = 0;
-    }
-    rows_.clear();
-  }
-
- private:
-  std::vector<double> value_;
-  std::vector<char> in_;
-  std::vector<int> rows_;
-};
+constexpr int kAlike = 3;  ///< columns at a time, at most
 
 std::span<const int> rows_of(const SparseMatrix& A, int j) { return {A.innerIndexPtr() + A.outerIndexPtr()[j], A.innerIndexPtr() + A.outerIndexPtr()[j + 1]}; }
 const double* numbers_of(const SparseMatrix& A, int j) { return A.valuePtr() + A.outerIndexPtr()[j]; }
 
-/// Do some columns of PᵀLP from J on have the same rows, as those of a node's components? Those of P then are shifted by one, and those of L have the same rows
-/// below the diagonal.
+/// Can some columns of PᵀLP from J on be made together, as those of a node's components? The columns of P have the same numbers, each one row further down, and
+/// the columns of L have the same rows from their diagonals on.
 bool are_alike(const SparseMatrix& lower, const SparseMatrix& P, int J, int count) {
   const auto first = rows_of(P, J);
   for (int c = 1; c < count; ++c) {
@@ -53,7 +29,7 @@ bool are_alike(const SparseMatrix& lower, const SparseMatrix& P, int J, int coun
       const int i = first[k];
       if (next[k] != i + c) return false;
       const auto all = rows_of(lower, i), own = rows_of(lower, i + c);
-      if (all.size() != own.size() + c || !std::equal(own.begin(), own.end(), all.begin() + c)) return false;
+      if (own.empty() || own[0] != i + c || all.size() != own.size() + c || !std::equal(own.begin(), own.end(), all.begin() + c)) return false;
     }
   }
   return true;
@@ -80,23 +56,23 @@ struct HalfColumns {
 /// Makes columns of M = PᵀLP. `rows`: P once more.
 class Product {
  public:
-  Product(const SparseMatrix& lower, const SparseMatrix& P, const SparseRows& rows) : lower_(lower), P_(P), rows_(rows), fine_(P.rows()), coarse_(P.cols()) {}
+  Product(const SparseMatrix& lower, const SparseMatrix& P, const SparseRows& rows) : lower_(lower), P_(P), rows_(rows), fine_(static_cast<int>(P.rows()), kAlike), coarse_(static_cast<int>(P.cols()), kAlike) {}
 
   /// Columns J … J + count − 1, which are alike.
   template <int count>
   void append(int J, HalfColumns& to) {
     for (SparseMatrix::InnerIterator p(P_, J); p; ++p) add<count>(static_cast<int>(p.row()), p.value());
-    fine_.empty([&](int i, const double* numbers) {
-      for (SparseRows::InnerIterator p(rows_, i); p; ++p) {
+    for (std::size_t k = 0; k < fine_.rows().size(); ++k)
+      for (SparseRows::InnerIterator p(rows_, fine_.rows()[k]); p; ++p) {
         double* sum = coarse_.at(static_cast<int>(p.col()));
-        for (int c = 0; c < count; ++c) sum[c] += p.value() * numbers[c];
+        for (int c = 0; c < count; ++c) sum[c] += p.value() * fine_.numbers(k)[c];
       }
-    });
     entries_.clear();
-    coarse_.empty([&](int I, const double* numbers) {
-      entries_.push_back({I, {}});
-      std::copy_n(numbers, count, entries_.back().numbers);
-    });
+    for (std::size_t k = 0; k < coarse_.rows().size(); ++k) {
+      entries_.push_back({coarse_.rows()[k], {}});
+      std::copy_n(coarse_.numbers(k), count, entries_.back().numbers);
+    }
+    fine_.clear(), coarse_.clear();
     std::ranges::sort(entries_, {}, &Entry::row);
     for (int c = 0; c < count; ++c) {
       for (const auto& [I, numbers] : entries_) {
@@ -129,7 +105,7 @@ class Product {
 
   const SparseMatrix &lower_, &P_;
   const SparseRows& rows_;
-  SparseColumns fine_, coarse_;
+  SomeRows fine_, coarse_;  ///< numbers of the columns at hand
   std::vector<Entry> entries_;
 };
 
@@ -155,7 +131,7 @@ SparseMatrix congruent(const SparseMatrix& lower, const SparseMatrix& P, const S
   parallel_ranges(count, threads, [&](int k, int first, int end) {
     HalfColumns& own = some[k];
     own.first = first;
-    const auto about = static_cast<std::size_t>(static_cast<double>(lower.nonZeros()) * (end - first) / static_cast<double>(P.rows()));
+    const auto about = static_cast<std::size_t>(static_cast<double>(lower.nonZeros()) * (end - first) / static_cast<double>(std::max<Eigen::Index>(1, P.rows())));
     own.rows.reserve(about), own.numbers.reserve(about);
     Product product(lower, P, rows);
     for (int J = first; J < end;) {

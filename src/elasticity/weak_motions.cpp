@@ -27,7 +27,7 @@ constexpr double kSuspicious = 1e-3;
 constexpr double kLost = 1e-15;
 /// To which weak motions are rigid, and so known.
 constexpr double kNoise = 1e-4;
-/// For a thread.
+/// Fewer nodes than this are not worth a thread.
 constexpr int kFewNodes = 100'000;
 
 /// Volumes of the cells shared out to their nodes, in units of the whole; one entry an unknown. The last digit depends on the number of threads.

@@ -12,41 +12,21 @@ constexpr int kMostIterations = 1000;
 /// After so many iterations their rate of convergence is trusted to foretell how many there will be.
 constexpr int kTelling = 10;
 
-struct Ending {
-  double first, residual;  // residuals: the first one, and at which to end
-  double most;             // iterations that are worth while; those made already are spent either way
-  Monitor* monitor;
-  const Ranks& ranks;
-  std::exception_ptr thrown = nullptr;  // by the monitor, kept until PETSc has returned
-
-  /// Whether rank 0's monitor wants the end: all ranks learn it.
-  bool stopped() {
-    int stop = 0;
-    try {
-      if (monitor) monitor->check();
-    } catch (...) {
-      thrown = std::current_exception();
-      stop = 1;
-    }
-    if (!ranks.alone()) MPI_Bcast(&stop, 1, MPI_INT, 0, ranks.comm());
-    return stop != 0;
-  }
-};
-
 /// How many iterations twelve digits take in all at the rate so far. The first systems of a Newton iteration are solved to fewer, the last one to as many.
-double foreseen(const Ending& ending, int iteration, double residual) {
-  return residual < ending.first ? iteration * std::log(1e-12) / std::log(residual / ending.first) : INFINITY;
+double foreseen(double first, double residual, int iterations) {
+  return residual < first ? iterations * std::log(1e-12) / std::log(residual / first) : INFINITY;
 }
 
-PetscErrorCode ended(KSP, PetscInt iteration, PetscReal residual, KSPConvergedReason* reason, void* context) {
-  Ending& ending = *static_cast<Ending*>(context);
-  *reason = !std::isfinite(residual)         ? KSP_DIVERGED_NANORINF
-            : residual <= ending.residual    ? KSP_CONVERGED_RTOL
-            : iteration >= kMostIterations   ? KSP_DIVERGED_ITS
-            : iteration >= kTelling && foreseen(ending, iteration, residual) - iteration > ending.most ? KSP_DIVERGED_ITS
-                                             : KSP_CONVERGED_ITERATING;
-  if (*reason == KSP_CONVERGED_ITERATING && ending.stopped()) *reason = KSP_DIVERGED_BREAKDOWN;
-  return 0;
+double norm(Vec v) {
+  PetscReal size = 0;
+  check(VecNorm(v, NORM_2, &size));
+  return size;
+}
+
+double dot(Vec a, Vec b) {
+  PetscScalar sum = 0;
+  check(VecDot(a, b, &sum));
+  return sum;
 }
 
 }  // namespace
@@ -58,7 +38,7 @@ Cycle::Cycle(const Ranks& ranks, Piece piece, const Change& first) : ranks_(rank
 void Cycle::make() {
   const int twice = first_swept_twice();
   for (int l = 0; l + 1 < levels(); ++l) {
-    Level& level = all_.emplace_back(Level{Sweeps(hierarchy_.matrix(l)), l >= twice ? 2 : 1, {}, {}, {}, {}});
+    Level& level = levels_.emplace_back(Level{Sweeps(hierarchy_.matrix(l)), l >= twice ? 2 : 1, {}, {}, {}, {}});
     check(MatCreateVecs(hierarchy_.interpolation(l), level.coarse.put(), level.left.put()));
     check(VecDuplicate(level.coarse, level.correction.put()));
     check(VecDuplicate(level.left, level.change.put()));
@@ -70,50 +50,15 @@ void Cycle::make() {
   if (ranks_.sum(coarsest.rows()) <= kSmall) factor_on_each(coarsest_, last_, MAT_SHIFT_POSITIVE_DEFINITE, MATSOLVERPETSC);
   else factor_on_each(coarsest_, last_, MAT_SHIFT_NONE, MATSOLVERCHOLMOD);
   const int own = hierarchy_.matrix(0).rows();
-  check(MatCreateShell(ranks_.comm(), own, own, PETSC_DETERMINE, PETSC_DETERMINE, this, finest_.put()));
-  check(MatShellSetOperation(finest_, MATOP_MULT, reinterpret_cast<void (*)()>(multiply)));
-  check(MatCreateVecs(finest_, x_.put(), b_.put()));
-  check(KSPCreate(ranks_.comm(), ksp_.put()));
-  check(KSPSetOperators(ksp_, finest_, finest_));
-  check(KSPSetType(ksp_, KSPCG));
-  check(KSPSetNormType(ksp_, KSP_NORM_UNPRECONDITIONED));
-  PC pc = nullptr;
-  check(KSPGetPC(ksp_, &pc));
-  check(PCSetType(pc, PCSHELL));
-  check(PCShellSetContext(pc, this));
-  check(PCShellSetApply(pc, precondition));
-}
-
-namespace {
-
-/// Calls work for PETSc, which knows no exceptions.
-template <class Work>
-PetscErrorCode called_by_petsc(const Work& work) {
-  try {
-    work();
-  } catch (const std::exception& error) {
-    SETERRQ(PETSC_COMM_SELF, PETSC_ERR_LIB, "%s", error.what());
-  }
-  return 0;
-}
-
-}  // namespace
-
-PetscErrorCode Cycle::multiply(Mat shell, Vec x, Vec y) {
-  void* self = nullptr;
-  PetscCall(MatShellGetContext(shell, &self));
-  return called_by_petsc([&] { static_cast<Cycle*>(self)->hierarchy_.matrix(0).times(ReadNumbers(x), Numbers(y)); });
-}
-
-PetscErrorCode Cycle::precondition(PC shell, Vec b, Vec x) {
-  void* self = nullptr;
-  PetscCall(PCShellGetContext(shell, &self));
-  return called_by_petsc([&] { static_cast<Cycle*>(self)->descend(0, b, x); });
+  check(VecCreate(ranks_.comm(), x_.put()));
+  check(VecSetSizes(x_, own, PETSC_DETERMINE));
+  check(VecSetType(x_, VECSTANDARD));
+  for (OwnedVec* v : {&left_, &z_, &p_, &Ap_}) check(VecDuplicate(x_, v->put()));
 }
 
 void Cycle::descend(std::size_t l, Vec b, Vec x) {
-  if (l == all_.size()) return check(KSPSolve(coarsest_, b, x));
-  Level& level = all_[l];
+  if (l == levels_.size()) return check(KSPSolve(coarsest_, b, x));
+  Level& level = levels_[l];
   const Mat P = hierarchy_.interpolation(static_cast<int>(l));
   const bool solved = l == 0 && shared_.any();
   level.sweeps.forward(ReadNumbers(b), Numbers(x), Numbers(level.left));
@@ -137,7 +82,7 @@ void Cycle::descend(std::size_t l, Vec b, Vec x) {
 }
 
 /// A second sweep costs little where a level has few unknowns. On the second coarser mesh and below (1/64 of the unknowns) it saves a tenth of the
-/// iterations with friction: 28 instead of 31 on a cube of 64³ cells. Where aggregates follow the coarsest mesh, they converge more slowly than meshes, and a
+/// iterations with friction: 28 instead of 31 on a cube of 64³ cells (by PETSc's sweeps). Where aggregates follow the coarsest mesh, they converge more slowly than meshes, and a
 /// second sweep from that mesh on saves a fifth: 22 instead of 27 on 76³ cells, with aggregates below 19³.
 int Cycle::first_swept_twice() const { return hierarchy_.meshes() == 0 ? levels() : std::min(hierarchy_.meshes(), 2); }
 
@@ -153,9 +98,9 @@ void Cycle::take_coarsest() {
 bool Cycle::set(const Change& change) {
   if (!hierarchy_.set(change)) return false;
   double of_sweeps = 0;
-  for (std::size_t l = 0; l < all_.size(); ++l) {
-    all_[l].sweeps.set(damping(hierarchy_.matrix(static_cast<int>(l)), l == 0 ? change.shared : std::vector<int>()));
-    of_sweeps += all_[l].sweeps.bytes();
+  for (std::size_t l = 0; l < levels_.size(); ++l) {
+    levels_[l].sweeps.set(damping(hierarchy_.matrix(static_cast<int>(l)), l == 0 ? change.shared : std::vector<int>()));
+    of_sweeps += levels_[l].sweeps.bytes();
   }
   if (!ranks_.all(shared_.set(hierarchy_.matrix(0), change.shared))) return false;
   take_coarsest();
@@ -164,27 +109,44 @@ bool Cycle::set(const Change& change) {
   return true;
 }
 
+bool Cycle::stopped(Monitor* monitor, Solution& solution) const {
+  int stop = 0;
+  try {
+    if (monitor) monitor->check();
+  } catch (...) {
+    solution.thrown = std::current_exception();
+    stop = 1;
+  }
+  if (!ranks_.alone()) MPI_Bcast(&stop, 1, MPI_INT, 0, ranks_.comm());
+  return stop != 0;
+}
+
 Cycle::Solution Cycle::solve(const std::vector<double>& b, double tolerance, double most, Monitor* monitor) {
-  std::copy(b.begin(), b.end(), static_cast<double*>(Numbers(b_)));
-  PetscReal norm = 0;
-  check(VecNorm(b_, NORM_2, &norm));
-  Ending ending{norm, tolerance * norm, most, monitor, ranks_};
-  check(KSPSetConvergenceTest(ksp_, ended, &ending, nullptr));
-  check(KSPSolve(ksp_, b_, x_));
-  KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
+  std::copy(b.begin(), b.end(), static_cast<double*>(Numbers(left_)));
+  check(VecSet(x_, 0));
   Solution solution;
-  check(KSPGetConvergedReason(ksp_, &reason));
-  check(KSPGetIterationNumber(ksp_, &solution.iterations));
-  solution.thrown = ending.thrown;
-  solution.found = reason > 0;
+  const double first = norm(left_);
+  double residual = first, before = 1;
+  while (residual > tolerance * first) {
+    const int count = solution.iterations;
+    if (count >= kMostIterations || (count >= kTelling && foreseen(first, residual, count) - count > most) || stopped(monitor, solution)) break;
+    descend(0, left_, z_);
+    const double product = dot(left_, z_);
+    check(count == 0 ? VecCopy(z_, p_) : VecAYPX(p_, product / before, z_));
+    hierarchy_.matrix(0).times(ReadNumbers(p_), Numbers(Ap_));
+    const double curvature = dot(p_, Ap_);
+    if (!(product > 0 && curvature > 0)) break;  // not definite
+    const double step = product / curvature;
+    check(VecAXPY(x_, step, p_));
+    check(VecAXPY(left_, -step, Ap_));
+    before = product, residual = norm(left_), ++solution.iterations;
+  }
+  solution.found = residual <= tolerance * first;
   const auto numbers = [&](Vec of) {
     const ReadNumbers own(of);
     return std::vector<double>(own + 0, own + b.size());
   };
-  solution.x = numbers(x_);
-  Vec left = nullptr;
-  check(KSPBuildResidual(ksp_, x_, b_, &left));  // for CG a copy of what it carries along, into b_, which is not needed any more
-  solution.left = numbers(left);
+  solution.x = numbers(x_), solution.left = numbers(left_);
   return solution;
 }
 

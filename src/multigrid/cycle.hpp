@@ -40,21 +40,21 @@ class Cycle {
     OwnedVec coarse, correction;  ///< of the next level
   };
 
-  static PetscErrorCode multiply(Mat shell, Vec x, Vec y);
-  static PetscErrorCode precondition(PC shell, Vec b, Vec x);
   /// x = M⁻¹ b, M the V-cycle from this level on.
   void descend(std::size_t level, Vec b, Vec x);
   void make();
   int first_swept_twice() const;  ///< the level
-  void take_coarsest();     ///< numbers
+  void take_coarsest();           ///< numbers
+  /// Does rank 0's monitor want the end? All ranks learn it.
+  bool stopped(Monitor* monitor, Solution& solution) const;
 
   const Ranks ranks_;
   Hierarchy hierarchy_;
-  std::vector<Level> all_;
+  std::vector<Level> levels_;
   SharedRows shared_;
-  OwnedMat finest_, last_;  ///< the first one's products, the coarsest one's full rows
-  OwnedKsp ksp_, coarsest_;
-  OwnedVec b_, x_;
+  OwnedMat last_;  ///< the coarsest matrix, full rows
+  OwnedKsp coarsest_;
+  OwnedVec x_, left_, z_, p_, Ap_;  ///< of conjugate gradients
   double bytes_ = 0;
 };
 

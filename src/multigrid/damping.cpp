@@ -22,7 +22,7 @@ class Between {
       for (int r = 0; r < n; ++r)
         if (std::ranges::binary_search(left_out, node * n + r)) kept[r] = 0, D.row(r).setZero(), D.col(r).setZero(), D(r, r) = 1;
       Eigen::LLT<Block> factor(D);
-      if (factor.info() != Eigen::Success) factor.compute(D.diagonal().cwiseAbs().asDiagonal());
+      if (factor.info() != Eigen::Success) factor.compute((n * D.diagonal().cwiseAbs()).asDiagonal());  // as in invert()
       factors_.push_back(std::move(factor)), kept_.push_back(std::move(kept));
     }
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <stdexcept>
 #include <utility>
 
 namespace dotyk::multigrid {
@@ -93,22 +94,8 @@ Galerkin::Galerkin(const HalfMatrix& fine, Mat interpolation, const HalfMatrix& 
   support_ = Buckets(blocks, [&](auto&& put) { for_each([&](int block, int row, int) { put(block, row); }); });
   first_ = Buckets(blocks, [&](auto&& put) { for_each([&](int block, int, int place) { put(block, place); }); });
   entries_.assign(static_cast<std::size_t>(fine_ * size_), 0.0);
-  product_.place.assign(static_cast<std::size_t>(own_) + fine.others().size(), -1);
-  sum_.place.assign(static_cast<std::size_t>(columns), -1);
-}
-
-double* Galerkin::SomeRows::at(int row, int size) {
-  if (place[row] < 0) {
-    place[row] = static_cast<int>(rows.size());
-    rows.push_back(row);
-    numbers.resize(rows.size() * static_cast<std::size_t>(size), 0.0);
-  }
-  return numbers.data() + static_cast<std::size_t>(place[row]) * size;
-}
-
-void Galerkin::SomeRows::clear() {
-  for (const int row : rows) place[row] = -1;
-  rows.clear(), numbers.clear();
+  product_ = SomeRows(own_ + static_cast<int>(fine.others().size()), fine_ * size_);
+  sum_ = SomeRows(columns, size_);
 }
 
 int Galerkin::reached_row(int node) const {
@@ -132,11 +119,10 @@ void Galerkin::add_node(int node, const HalfMatrix& A) {
       if (const double number = entries_[r * m + q]; number != 0) factors[count++] = {r, q, number};
   if (count == 0) return;  // as truncated rows are
   A.each_block(node, [&](int other, const double* block, HalfMatrix::Read read) {
-    double* to = product_.at(other, n * m);
-    const int along = read == HalfMatrix::Read::transposed ? n : 1, across = n + 1 - along;  // steps to the next entry of a row, and of a column
+    double* to = product_.at(other);
     for (int f = 0; f < count; ++f) {
       const auto [r, q, number] = factors[f];
-      for (int c = 0; c < n; ++c) to[c * m + q] += block[r * across + c * along] * number;
+      for (int c = 0; c < n; ++c) to[c * m + q] += A.entry(block, read, r, c) * number;
     }
   });
 }
@@ -145,12 +131,12 @@ void Galerkin::add_node(int node, const HalfMatrix& A) {
 template <int columns>
 void Galerkin::add_product(const RowsView& P) {
   const int m = columns > 0 ? columns : size_;
-  for (std::size_t p = 0; p < product_.rows.size(); ++p)
+  for (std::size_t p = 0; p < product_.rows().size(); ++p)
     for (int member = 0; member < fine_; ++member) {
-      const int row = reached_row(product_.rows[p]) + member;
-      const double* from = product_.numbers.data() + (p * fine_ + member) * static_cast<std::size_t>(m);
+      const int row = reached_row(product_.rows()[p]) + member;
+      const double* from = product_.numbers(p) + member * m;
       for (int k = P.starts[row]; k < P.starts[row + 1]; ++k) {
-        double* to = sum_.at(P.columns[k], m);
+        double* to = sum_.at(P.columns[k]);
         for (int r = 0; r < m; ++r) to[r] += P.values[k] * from[r];
       }
     }
@@ -171,19 +157,18 @@ void Galerkin::compute_block(int block, const HalfMatrix& A, const RowsView& P) 
   add_product<columns>(P);
 }
 
-template <class Put>
-void Galerkin::each_entry(int block, HalfMatrix& C, const Put& put) {
+void Galerkin::put_block(int block, HalfMatrix& C) {
   C.each_own_block(block - C.first_row() / size_, [&](int other, double* numbers) {
     for (int c = 0; c < size_; ++c) {
-      const double* computed = sum_.at(C.number(other) * size_ + c, size_);
-      for (int r = 0; r < size_; ++r) put(numbers[r * size_ + c], computed[r]);
+      const double* computed = sum_.at(C.number(other) * size_ + c);
+      for (int r = 0; r < size_; ++r) numbers[r * size_ + c] = computed[r];
     }
   });
 }
 
 void Galerkin::append_block(int block, int rank, Outgoing& out) {
   std::vector<int> nodes;
-  for (const int column : sum_.rows) nodes.push_back(column / size_);
+  for (const int column : sum_.rows()) nodes.push_back(column / size_);
   std::ranges::sort(nodes);
   nodes.erase(std::ranges::unique(nodes).begin(), nodes.end());
   out.nodes[rank].push_back(static_cast<int>(nodes.size()));
@@ -191,7 +176,7 @@ void Galerkin::append_block(int block, int rank, Outgoing& out) {
   out.nodes[rank].insert(out.nodes[rank].end(), nodes.begin(), nodes.end());
   for (const int node : nodes)
     for (int c = 0; c < size_; ++c) {
-      const double* computed = sum_.at(node * size_ + c, size_);
+      const double* computed = sum_.at(node * size_ + c);
       out.numbers[rank].insert(out.numbers[rank].end(), computed, computed + size_);
     }
 }
@@ -205,7 +190,10 @@ void Galerkin::add(const Outgoing& in, HalfMatrix& C) const {
         for (int c = 0; c < size_; ++c)
           for (int r = 0; r < size_; ++r, ++number) {
             const int column = *at * size_ + c;
-            if (!C.has(column) || column / size_ * size_ <= C.first_row() + row) *C.find(row + r, column) += *number;
+            if (*number == 0 || (C.has(column) && *at * size_ > C.first_row() + row)) continue;
+            double* sum = C.find(row + r, column);
+            if (!sum) throw std::runtime_error("multigrid: a coarse matrix has another pattern than that of the product");
+            *sum += *number;
           }
     }
   }
@@ -231,7 +219,7 @@ std::vector<char> Galerkin::compute(const HalfMatrix& fine, Mat interpolation, H
     else if (size_ == 6) compute_block<0, 6>(b, fine, P);
     else compute_block<0, 0>(b, fine, P);
     if (mine) {
-      each_entry(b, coarse, [](double& number, double value) { number = value; });
+      put_block(b, coarse);
       std::fill_n(computed.begin() + b * size_ - coarse.first_row(), size_, char(1));
     } else {
       append_block(b, static_cast<int>(std::ranges::upper_bound(firsts_, b) - firsts_.begin()) - 1, out);
@@ -243,7 +231,7 @@ std::vector<char> Galerkin::compute(const HalfMatrix& fine, Mat interpolation, H
 }
 
 double Galerkin::bytes() const {
-  return static_cast<double>(support_.bytes() + first_.bytes()) + 4.0 * static_cast<double>(product_.place.size() + sum_.place.size());
+  return static_cast<double>(support_.bytes() + first_.bytes()) + product_.bytes() + sum_.bytes();
 }
 
 }  // namespace dotyk::multigrid

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "base/buckets.hpp"
+#include "base/some_rows.hpp"
 #include "multigrid/half_matrix.hpp"
 #include "multigrid/local_rows.hpp"
 
@@ -29,13 +30,6 @@ class Galerkin {
   double bytes() const;
 
  private:
-  /// Lists of numbers, each of one size, of which few are used at a time.
-  struct SomeRows {
-    double* at(int row, int size);
-    void clear();
-    std::vector<int> place, rows;  // place: of a row among `rows`, or -1
-    std::vector<double> numbers;
-  };
   /// What belongs to coarse nodes of other ranks, by rank: of each node how many others it is coupled with, its number and theirs; and the blocks.
   struct Outgoing {
     std::vector<std::vector<int>> nodes;
@@ -49,9 +43,7 @@ class Galerkin {
   void add_node(int node, const HalfMatrix& A);
   template <int columns>
   void add_product(const RowsView& P);
-  /// Calls put(number of C, computed one) for the entries of an own block of rows.
-  template <class Put>
-  void each_entry(int block, HalfMatrix& C, const Put& put);
+  void put_block(int block, HalfMatrix& C);
   void append_block(int block, int rank, Outgoing& out);
   void add(const Outgoing& in, HalfMatrix& C) const;
   /// The row of P, among those reached, of a fine node's first row; nodes as HalfMatrix counts them.

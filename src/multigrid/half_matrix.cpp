@@ -97,7 +97,7 @@ Rows HalfMatrix::full(const std::vector<int>& rows) const {
     for (const auto& [column, block, read] : parts)
       for (int c = 0; c < n; ++c) {
         out.columns.push_back(column * n + c);
-        out.values.push_back(block[read == Read::transposed ? c * n + r : r * n + c]);
+        out.values.push_back(entry(block, read, r, c));
       }
     out.starts.push_back(static_cast<int>(out.columns.size()));
   }
@@ -113,6 +113,7 @@ Rows HalfMatrix::full() const {
 double HalfMatrix::bytes() const {
   return 8.0 * static_cast<double>(rows_.below.size() + rows_.diagonal.size() + rows_.other.size()) +
          4.0 * static_cast<double>(rows_.starts.size() + rows_.columns.size() + rows_.others.size() + other_places_.size()) +
+         4.0 * static_cast<double>(others_.size() + border_.size()) + 8.0 * static_cast<double>(theirs_.size()) +
          static_cast<double>(above_.bytes() + above_places_.bytes()) + room_.x.bytes() + room_.y.bytes();
 }
 

@@ -12,8 +12,8 @@
 
 namespace dotyk::multigrid {
 
-/// Some rows of a symmetric matrix, in blocks of nodes that follow one another: half of the blocks in their own columns, with the diagonal, and all in other
-/// columns. Nodes are counted over all ranks where nothing else is said.
+/// Rows of a symmetric matrix, of nodes that follow one another, as blocks, one for each pair of coupled nodes. Of blocks between two of these nodes those left of
+/// the diagonal are stored, and those on it; of blocks in columns of other nodes all. Nodes are counted over all ranks where nothing else is said.
 struct HalfRows {
   int block = 1;                        ///< rows of a node
   int first = 0;                        ///< own node
@@ -23,13 +23,13 @@ struct HalfRows {
   std::vector<double> other;
 
   HalfRows() = default;
-  /// Zeros. `nodes`: of each own node those that its rows couple it to; of own ones those before it suffice, and itself is not needed.
+  /// Zeros. `nodes`: for each own node the nodes that it is coupled to. Own nodes after it, and itself, are ignored.
   HalfRows(int block, int first, const Rows& nodes);
 
   int nodes() const { return static_cast<int>(starts.size()) - 1; }
   bool own(int node) const { return node >= first && node < first + nodes(); }
 
-  /// A block, where the pattern has it: of its row's, or of its column's.
+  /// Where a block is stored: with the node of its row, or transposed with the node of its column. `numbers` is null where the pattern has no such block.
   struct Place {
     int row = -1, column = -1;  ///< nodes
     double* numbers = nullptr;
@@ -38,8 +38,8 @@ struct HalfRows {
   Place place(int row, int column);
 };
 
-/// Of a lower triangle: each(visit) calls visit(row, column, number) of its entries, once for each, at least for those with one of these rows or columns. It is
-/// called several times.
+/// each(visit) calls visit(row, column, number) once for each pair of entries (i, j), (j, i) that has one of these rows or columns, in any order. It is called
+/// three times.
 template <class Each>
 HalfRows half_rows(int block, int first, int nodes, const Each& each);
 
@@ -56,8 +56,8 @@ class HalfMatrix {
   int first_row() const { return rows_.first * block(); }
   bool has(int row) const { return rows_.own(row / block()); }
 
-  /// The number at a row, counted from the rank's first, and a column; null where the pattern has no such entry. One place has the entries (i, j) and
-  /// (j, i) of own rows of different nodes.
+  /// The number at a row, counted from the rank's first, and a column; null where the pattern has no such entry. (i, j) and (j, i) share one place if they
+  /// belong to different own nodes. Within one node each has its own, and both must be written.
   double* find(int row, int column);
   double diagonal(int row) const { return rows_.diagonal[static_cast<std::size_t>(row) * block() + row % block()]; }
   double& diagonal(int row) { return rows_.diagonal[static_cast<std::size_t>(row) * block() + row % block()]; }
@@ -67,20 +67,17 @@ class HalfMatrix {
   /// Calls visit(node, block, read) for the blocks of an own node. `node`: an own one, or nodes() + its place in others().
   template <class Visit>
   void each_block(int node, const Visit& visit) const {
+    each_stored(*this, node, [&](int other, const double* block) { visit(other, block, Read::as_it_is); });
     const std::int64_t square = block() * block();
-    for (int k = rows_.starts[node]; k < rows_.starts[node + 1]; ++k) visit(rows_.columns[k], rows_.below.data() + k * square, Read::as_it_is);
-    visit(node, rows_.diagonal.data() + node * square, Read::as_it_is);
     const auto above = above_[node], places = above_places_[node];
     for (std::size_t k = 0; k < above.size(); ++k) visit(above[k], rows_.below.data() + places[k] * square, Read::transposed);
-    for (int k = rows_.other_starts[node]; k < rows_.other_starts[node + 1]; ++k) visit(nodes() + other_places_[k], rows_.other.data() + k * square, Read::as_it_is);
   }
-  /// The same, with numbers to be changed, of the blocks that are stored with the node: none is transposed.
+  /// The number at a row and a column of a block.
+  double entry(const double* block, Read read, int r, int c) const { return block[read == Read::transposed ? c * rows_.block + r : r * rows_.block + c]; }
+  /// The same as each_block(), with numbers to be changed, of the blocks that are stored with the node: none is transposed.
   template <class Visit>
   void each_own_block(int node, const Visit& visit) {
-    const std::int64_t square = block() * block();
-    for (int k = rows_.starts[node]; k < rows_.starts[node + 1]; ++k) visit(rows_.columns[k], rows_.below.data() + k * square);
-    visit(node, rows_.diagonal.data() + node * square);
-    for (int k = rows_.other_starts[node]; k < rows_.other_starts[node + 1]; ++k) visit(nodes() + other_places_[k], rows_.other.data() + k * square);
+    each_stored(*this, node, visit);
   }
   const std::vector<int>& others() const { return others_; }  ///< nodes of other ranks, ascending
   /// The number of an own node, or of one of other ranks, as each_block() counts.
@@ -121,6 +118,14 @@ class HalfMatrix {
   double bytes() const;
 
  private:
+  template <class Self, class Visit>
+  static void each_stored(Self& self, int node, const Visit& visit) {
+    auto& rows = self.rows_;
+    const std::int64_t square = rows.block * rows.block;
+    for (int k = rows.starts[node]; k < rows.starts[node + 1]; ++k) visit(rows.columns[k], rows.below.data() + k * square);
+    visit(node, rows.diagonal.data() + node * square);
+    for (int k = rows.other_starts[node]; k < rows.other_starts[node + 1]; ++k) visit(self.nodes() + self.other_places_[k], rows.other.data() + k * square);
+  }
   void fetch(const double* x);
 
   Ranks ranks_;
@@ -136,7 +141,7 @@ class HalfMatrix {
 
 template <class Each>
 HalfRows half_rows(int block, int first, int nodes, const Each& each) {
-  std::vector<int> last(static_cast<std::size_t>(nodes), -1);  // the node that the pair before was with: each pair of nodes comes several times
+  std::vector<int> last(static_cast<std::size_t>(nodes), -1);  // neighbour of each node: most repeats of a pair follow one another
   const auto is_own = [&](int node) { return node >= first && node < first + nodes; };
   const Buckets pairs(nodes, [&](auto&& put) {
     std::ranges::fill(last, -1);

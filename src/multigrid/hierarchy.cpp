@@ -184,6 +184,7 @@ void Hierarchy::take_unknowns(Mat S) {
     matrices_[l + 1] = coarse_matrix(matrices_[l], interpolations_[l]);
 }
 
+/// Of A, rows and columns of what is held are empty, so that no other rows of coarse matrices depend on these rows of P.
 void Hierarchy::truncate(const std::vector<int>& held) {
   std::vector<char> empty(empty_.size(), 0);
   for (const int row : held) empty[row] = 1;

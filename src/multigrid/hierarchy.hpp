@@ -34,7 +34,7 @@ class Hierarchy {
   /// Levels of coarser meshes. S: the unknowns, of displacements, all slots; null where they are the same.
   void take_functions(Mat S);
   /// Levels of aggregates below `finest`, which has the modes.
-  void take_aggregates(const HalfMatrix& finest);
+  void take_aggregates(const HalfMatrix& of);
   /// Interpolations from coarse displacements to the unknowns, and coarse matrices of these.
   void take_unknowns(Mat S);
   void multiply(int level);  ///< makes the product that gives the next level

@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 // Each block of L is read once. It serves its row, and by its transpose the rows above it. Rows of blocks are read as vectors of the compiler's, with lanes
-// beyond a node's numbers. What these lanes give is put where nothing reads it.
+// beyond a node's numbers. The results in these lanes go into padding, which is never read.
 namespace dotyk::multigrid {
 
 namespace {
@@ -128,12 +128,12 @@ struct Kernel {
 };
 
 #ifdef __x86_64__
-#define DOTYK_CLONES [[gnu::target_clones("arch=haswell", "default")]]
+#define DOTYK_CLONES [[gnu::target_clones("arch=x86-64-v3", "default")]]
 #else
 #define DOTYK_CLONES
 #endif
 
-// Nodes of solids in space, by vectors of as many numbers as the processor has.
+// Nodes of solids in space: compiled for AVX2 as well.
 DOTYK_CLONES void multiply_of_three(const HalfBlocks<double>& A, double* x, double* y) { Kernel<3, double>{A}.multiply(x, y); }
 DOTYK_CLONES void forward_of_three(const HalfBlocks<float>& A, const double* inverse, double* x, double* left) { Kernel<3, float>{A}.forward(inverse, x, left); }
 DOTYK_CLONES void backward_of_three(const HalfBlocks<float>& A, const double* inverse, double* b, double* x) { Kernel<3, float>{A}.backward(inverse, b, x); }
@@ -172,7 +172,7 @@ namespace {
 /// False where the block is not positive definite.
 template <int rows>
 [[gnu::always_inline]] inline bool inverted(const double* block, double* inverse) {
-  double G[rows][rows] = {}, of_G[rows][rows] = {};  // the factor, G Gᵀ, and its inverse
+  double G[rows][rows] = {}, inverse_factor[rows][rows] = {};  // the block is G Gᵀ
   for (int j = 0; j < rows; ++j)
     for (int i = j; i < rows; ++i) {
       double sum = block[i * rows + j];
@@ -183,13 +183,13 @@ template <int rows>
   for (int j = 0; j < rows; ++j)
     for (int i = j; i < rows; ++i) {
       double sum = i == j;
-      for (int k = j; k < i; ++k) sum -= G[i][k] * of_G[k][j];
-      of_G[i][j] = sum / G[i][i];
+      for (int k = j; k < i; ++k) sum -= G[i][k] * inverse_factor[k][j];
+      inverse_factor[i][j] = sum / G[i][i];
     }
   for (int i = 0; i < rows; ++i)
     for (int j = 0; j < rows; ++j) {
       double sum = 0;
-      for (int k = std::max(i, j); k < rows; ++k) sum += of_G[k][i] * of_G[k][j];
+      for (int k = std::max(i, j); k < rows; ++k) sum += inverse_factor[k][i] * inverse_factor[k][j];
       inverse[i * rows + j] = sum;
     }
   return true;
@@ -202,7 +202,7 @@ void invert(int rows, const double* block, double* inverse) {
   if (rows == 3) done = inverted<3>(block, inverse);
   else dispatch(rows, [&]<int constant>() { done = inverted<constant>(block, inverse); });
   if (done) return;
-  for (int k = 0; k < rows * rows; ++k) inverse[k] = k % (rows + 1) == 0 ? 1 / block[k] : 0;
+  for (int k = 0; k < rows * rows; ++k) inverse[k] = k % (rows + 1) == 0 ? 1 / (rows * block[k]) : 0;
 }
 
 void multiply(const HalfBlocks<double>& A, PaddedVector& x, PaddedVector& y) {

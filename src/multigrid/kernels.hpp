@@ -23,7 +23,6 @@ inline constexpr int kMostRows = 6, kSpare = 8;
 /// A vector for these functions: the numbers of each node, and padding.
 class PaddedVector {
  public:
-  PaddedVector() = default;
   /// Throws std::runtime_error where a node has more than kMostRows rows.
   PaddedVector(int size, int nodes);
   double* data() { return numbers_.data(); }
@@ -34,12 +33,12 @@ class PaddedVector {
   double bytes() const { return 8.0 * static_cast<double>(numbers_.size()); }
 
  private:
-  int size_ = 1, width_ = 2;
+  int size_, width_;
   std::vector<double> numbers_;
 };
 
-/// The inverse of a symmetric block, by its Cholesky factor, so that it is positive definite; of its diagonal alone where the block is not. kMostRows rows at
-/// most.
+/// The inverse of a symmetric block, by its Cholesky factor, so that it is positive definite. Where the block is not: that of its diagonal times the rows, which
+/// is no less than a semidefinite block. kMostRows rows at most.
 void invert(int rows, const double* block, double* inverse);
 
 /// y = A x.

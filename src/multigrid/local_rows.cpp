@@ -1,6 +1,5 @@
 #include "multigrid/local_rows.hpp"
 
-
 namespace dotyk::multigrid {
 
 RowsView::RowsView(Mat matrix) : matrix_(matrix) {
@@ -27,7 +26,6 @@ LocalRows::LocalRows(Mat matrix) {
   Mat diagonal = nullptr, rest = nullptr;
   check(MatMPIAIJGetSeqAIJ(matrix, &diagonal, &rest, &others));
   own.emplace(diagonal), other.emplace(rest);
-  check(MatGetSize(rest, nullptr, &others_count));
 }
 
 namespace {

@@ -40,9 +40,9 @@ class LocalRows {
     if (other)
       for (int k = other->starts[row]; k < other->starts[row + 1]; ++k) visit(others[other->columns[k]], other->values[k]);
   }
+
   std::optional<RowsView> own, other;
   const PetscInt* others = nullptr;            ///< by column of `other`: its number, ascending
-  int others_count = 0;
   int first_row = 0, first_column = 0, own_columns = 0;
 };
 

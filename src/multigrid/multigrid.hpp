@@ -1,5 +1,5 @@
-// Conjugate gradients preconditioned by multigrid, by PETSc. PETSc stands in a library of its own, which is opened when
-// the first solver is made.
+// Conjugate gradients preconditioned by multigrid. The library that does it needs PETSc and MPI, and is opened when the first
+// solver is made.
 #pragma once
 
 #include <functional>

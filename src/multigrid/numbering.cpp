@@ -117,7 +117,7 @@ class Sharing {
     for (int b = 0; b < nodes(0); ++b)
       for (int k = K.outerIndexPtr()[first_[b]]; k < K.outerIndexPtr()[first_[b] + 1]; ++k) edge(b, node[K.innerIndexPtr()[k]]);
   }
-  /// Unknowns that a row of an interface couples: kept together, as sweeps of one rank hardly see what others have.
+  /// Unknowns that a row of an interface couples: kept together: less is exchanged then, and an exact solution at unknowns that share stiffness stays on one rank.
   template <class Edge>
   void rows_join(const std::vector<std::vector<int>>& parents, Edge& edge) const {
     constexpr int kWeight = 10;

@@ -1,4 +1,4 @@
-// The doors of the library. PETSc knows no threads, so one call at a time goes through. No exception passes through functions of PETSc.
+// The doors of the library. PETSc knows no threads, so one call at a time goes through.
 #include <algorithm>
 #include <limits>
 #include <memory>

@@ -24,32 +24,32 @@ HalfBlocks<float> Sweeps::half() const {
 }
 
 void Sweeps::forward(const double* b, double* x, double* left) {
-  auto& [own, remaining] = A_.room();
-  remaining.take(b);
-  sweep_forward(half(), inverse_.data(), own, remaining);
-  own.give(x);
-  remaining.give(left);
+  auto& [solution, residual] = A_.room();
+  residual.take(b);
+  sweep_forward(half(), inverse_.data(), solution, residual);
+  solution.give(x);
+  residual.give(left);
   A_.times_others(x, [&](int row, double number) { left[row] -= number; });
   sweep_border_forward(x, left);
 }
 
 void Sweeps::backward(const double* b, double* x) {
   sweep_border_backward(b, x);
-  auto& [own, remaining] = A_.room();
-  remaining.take(b);
-  own.take(x);
-  A_.times_others(x, [&](int row, double number) { remaining[row] -= number; });
-  sweep_backward(half(), inverse_.data(), remaining, own);
-  own.give(x);
+  auto& [solution, residual] = A_.room();
+  residual.take(b);
+  solution.take(x);
+  A_.times_others(x, [&](int row, double number) { residual[row] -= number; });
+  sweep_backward(half(), inverse_.data(), residual, solution);
+  solution.give(x);
 }
 
 namespace {
 
-/// to += factor × a block of n rows times x.
-void add_product(int n, const double* block, HalfMatrix::Read read, double factor, const double* x, double* to) {
-  const int along = read == HalfMatrix::Read::transposed ? n : 1, across = n + 1 - along;
+/// to += factor × a matrix of n rows times x; entry(r, c): its numbers.
+template <class Entry>
+void add_product(int n, const Entry& entry, double factor, const double* x, double* to) {
   for (int r = 0; r < n; ++r)
-    for (int c = 0; c < n; ++c) to[r] += factor * block[r * across + c * along] * x[c];
+    for (int c = 0; c < n; ++c) to[r] += factor * entry(r, c) * x[c];
 }
 
 }  // namespace
@@ -57,33 +57,36 @@ void add_product(int n, const double* block, HalfMatrix::Read read, double facto
 void Sweeps::sweep_border_forward(double* x, double* left) {
   if (A_.ranks().alone()) return;
   const int n = A_.block();
-  changes_.assign(static_cast<std::size_t>(A_.rows()), 0.0);
+  const auto inverse_of = [&](int node) { return [of = inverse_.data() + static_cast<std::size_t>(node) * n * n, n](int r, int c) { return of[r * n + c]; }; };
+  work_.assign(static_cast<std::size_t>(A_.rows()), 0.0);
   for (const int node : A_.border()) {
-    double* change = changes_.data() + static_cast<std::size_t>(node) * n;
-    add_product(n, inverse_.data() + static_cast<std::size_t>(node) * n * n, HalfMatrix::Read::as_it_is, 1, left + static_cast<std::size_t>(node) * n, change);
+    double* change = work_.data() + static_cast<std::size_t>(node) * n;
+    add_product(n, inverse_of(node), 1, left + static_cast<std::size_t>(node) * n, change);
     for (int r = 0; r < n; ++r) x[static_cast<std::size_t>(node) * n + r] += change[r];
     A_.each_block(node, [&](int other, const double* block, HalfMatrix::Read read) {  // the block of row `other` and column `node` is its transpose
-      const auto transposed = read == HalfMatrix::Read::transposed ? HalfMatrix::Read::as_it_is : HalfMatrix::Read::transposed;
-      if (other < A_.nodes()) add_product(n, block, transposed, -1, change, left + static_cast<std::size_t>(other) * n);
+      const auto transposed = [&](int r, int c) { return A_.entry(block, read, c, r); };
+      if (other < A_.nodes()) add_product(n, transposed, -1, change, left + static_cast<std::size_t>(other) * n);
     });
   }
-  A_.times_others(changes_.data(), [&](int row, double number) { left[row] -= number; });
+  A_.times_others(work_.data(), [&](int row, double number) { left[row] -= number; });
 }
 
 void Sweeps::sweep_border_backward(const double* b, double* x) {
   if (A_.ranks().alone()) return;
   const int n = A_.block();
-  changes_.assign(static_cast<std::size_t>(A_.rows()), 0.0);
-  A_.times_others(x, [&](int row, double number) { changes_[row] = number; });
+  const auto inverse_of = [&](int node) { return [of = inverse_.data() + static_cast<std::size_t>(node) * n * n, n](int r, int c) { return of[r * n + c]; }; };
+  work_.assign(static_cast<std::size_t>(A_.rows()), 0.0);
+  A_.times_others(x, [&](int row, double number) { work_[row] = number; });
   double left[kMostRows];
   for (std::size_t k = A_.border().size(); k-- > 0;) {
     const int node = A_.border()[k];
     const std::size_t first = static_cast<std::size_t>(node) * n;
-    for (int r = 0; r < n; ++r) left[r] = b[first + r] - changes_[first + r];
+    for (int r = 0; r < n; ++r) left[r] = b[first + r] - work_[first + r];
     A_.each_block(node, [&](int other, const double* block, HalfMatrix::Read read) {
-      if (other < A_.nodes()) add_product(n, block, read, -1, x + static_cast<std::size_t>(other) * n, left);
+      const auto numbers = [&](int r, int c) { return A_.entry(block, read, r, c); };
+      if (other < A_.nodes()) add_product(n, numbers, -1, x + static_cast<std::size_t>(other) * n, left);
     });
-    add_product(n, inverse_.data() + first * n, HalfMatrix::Read::as_it_is, 1, left, x + first);
+    add_product(n, inverse_of(node), 1, left, x + first);
   }
 }
 

@@ -7,11 +7,11 @@
 
 namespace dotyk::multigrid {
 
-/// Sweeps over the nodes of each rank, block by block, which take the values that other ranks had before; nodes that are coupled to other ranks are swept twice,
-/// the second time with these ranks' new values. They need a matrix roughly: they read what is
-/// beside its diagonal in single precision, as their time is that of reading it. Its numbers stay those of a symmetric matrix, so that a forward sweep
-/// before the coarse correction and a backward one after it make a symmetric cycle. Vectors: of own rows. All functions are collective, except
-/// bytes().
+/// Sweeps over the nodes of each rank, block by block, with the values that other ranks had before the sweep. Nodes that are coupled to other ranks are swept once
+/// more, with the new values: so iterations do not grow with the ranks. The time of a sweep is that of reading the matrix; so it reads the blocks beside
+/// the diagonal in single precision. Rounded blocks stay those of a symmetric matrix. A forward sweep before the coarse correction and a backward
+/// one after it make a symmetric cycle (within 1e-7 where there are several ranks, as the second sweep reads numbers that are not rounded). Vectors: of
+/// own rows. All functions are collective, except bytes().
 class Sweeps {
  public:
   /// `A` must outlive this.
@@ -19,11 +19,11 @@ class Sweeps {
 
   /// Takes the numbers of A, and the relaxation ω of nodes that are coupled to other ranks.
   void set(double omega);
-  /// x = M⁻¹ b where M is a sweep, and left = b − A x, which costs nothing beside it. `left` may be `b`.
+  /// x = M⁻¹ b where M is a sweep, and left = b − A x, which the sweep computes on its way. `left` may be `b`.
   void forward(const double* b, double* x, double* left);
   /// x += M⁻ᵀ (b − A x).
   void backward(const double* b, double* x);
-  double bytes() const { return 4.0 * static_cast<double>(below_.size()) + 8.0 * static_cast<double>(inverse_.size()); }
+  double bytes() const { return 4.0 * static_cast<double>(below_.size()) + 8.0 * static_cast<double>(inverse_.size() + work_.size()); }
 
  private:
   HalfBlocks<float> half() const;
@@ -34,7 +34,7 @@ class Sweeps {
   double unit_ = 1;  ///< of below_: a power of two that brings these numbers to about 1, within the range of floats
   std::vector<float> below_;
   std::vector<double> inverse_;
-  std::vector<double> changes_;  ///< of own rows
+  std::vector<double> work_;  ///< by own rows, where there are several ranks
 };
 
 /// The relaxation factor ω of such sweeps at nodes that are coupled to other ranks; 1 on one rank. A = A_local + A_between, where A_between couples nodes of

@@ -37,11 +37,11 @@ class Elimination {
     RowBasis basis;
     for (int r = 0; r < problem_.rows(); ++r) basis.unknown.push_back(eliminate(r));
     const auto column = [&](int index) { return index < n_ ? index : basis.unknown[index - n_]; };
-    const bool alone = std::ranges::all_of(solved_, [&](const auto& of) {
+    const bool identity = std::ranges::all_of(solved_, [&](const auto& of) {
       const auto& [j, solved] = of;
       return solved.terms.size() == 1 && column(solved.terms.begin()->first) == j && solved.terms.begin()->second == 1;
     });
-    if (alone) {  // as with one body on a rigid one: no list of all entries
+    if (identity) {  // as with one body on a rigid one: no list of all entries
       basis.T.resize(n_, n_);
       basis.T.setIdentity();
       return basis;

@@ -60,7 +60,7 @@ TEST_CASE("PᵀAP is that of dense matrices: components of nodes alike, some of 
   test::Random random(8);
   constexpr int kNodes = 24, kCoarse = 7;
   for (const int components : {1, 2, 3, 4})
-    for (const double dropped : {0.0, 0.2}) {  // entries of A, so that columns of a node are not alike, and of P
+    for (const double dropped : {0.0, 0.2, 0.7}) {  // entries of A, so that columns of a node are not alike, or empty, and of P
       const int n = kNodes * components, m = kCoarse * components;
       algebra::DenseMatrix A = algebra::DenseMatrix::Zero(n, n), P = algebra::DenseMatrix::Zero(n, m);
       const auto kept = [&] { return random.between(0, 1) >= dropped; };
