@@ -343,9 +343,7 @@ void bind_methods(Library& library) {
       {key::positive("factor", "stiffness of the springs over the stiffness that a contact node sees").into(&Penalty::factor),
        key::boolean("reduced", "forces as unknowns of their own, on the contact boundary: any factor; else the springs added to "
                                 "the stiffness matrix, factored in each iteration: digits are lost as factor grows").into(&Penalty::reduced)},
-      100, [](const Penalty& m, Call&) {
-        return text("factor = ", m.factor, ", ", m.reduced ? "reduced" : "classical");
-      });
+      100, [](const Penalty& m, Call&) { return text("factor = ", m.factor, ", ", m.reduced ? "reduced" : "classical"); });
 }
 
 }  // namespace dotyk::script
