@@ -32,10 +32,6 @@ double dot(Vec a, Vec b) {
 }  // namespace
 
 Cycle::Cycle(const Ranks& ranks, Piece piece, const Change& first) : ranks_(ranks), hierarchy_(ranks, std::move(piece), first) {
-  make();
-}
-
-void Cycle::make() {
   const int twice = first_swept_twice();
   for (int l = 0; l + 1 < levels(); ++l) {
     Level& level = levels_.emplace_back(Level{Sweeps(hierarchy_.matrix(l)), l >= twice ? 2 : 1, {}, {}, {}, {}});
@@ -81,9 +77,9 @@ void Cycle::descend(std::size_t l, Vec b, Vec x) {
   for (int k = 0; k < level.count; ++k) level.sweeps.backward(ReadNumbers(b), Numbers(x));
 }
 
-/// A second sweep costs little where a level has few unknowns. On the second coarser mesh and below (1/64 of the unknowns) it saves a tenth of the
-/// iterations with friction: 28 instead of 31 on a cube of 64³ cells (by PETSc's sweeps). Where aggregates follow the coarsest mesh, they converge more slowly than meshes, and a
-/// second sweep from that mesh on saves a fifth: 22 instead of 27 on 76³ cells, with aggregates below 19³.
+/// A second sweep costs little where a level has few unknowns. Measured with PETSc's sweeps: on the second coarser mesh and below (1/64 of the unknowns) it
+/// saves a tenth of the iterations with friction, 28 instead of 31 on a cube of 64³ cells. Where aggregates follow the coarsest mesh, they converge more
+/// slowly than meshes, and a second sweep from that mesh on saves a fifth: 22 instead of 27 on 76³ cells, with aggregates below 19³.
 int Cycle::first_swept_twice() const { return hierarchy_.meshes() == 0 ? levels() : std::min(hierarchy_.meshes(), 2); }
 
 void Cycle::take_coarsest() {

@@ -42,7 +42,6 @@ class Cycle {
 
   /// x = M⁻¹ b, M the V-cycle from this level on.
   void descend(std::size_t level, Vec b, Vec x);
-  void make();
   int first_swept_twice() const;  ///< the level
   void take_coarsest();           ///< numbers
   /// Does rank 0's monitor want the end? All ranks learn it.

@@ -9,14 +9,6 @@ namespace dotyk::multigrid {
 
 namespace {
 
-/// Closes a row of numbers that came in any order, some of them several times.
-void close_row(std::vector<int>& row, Rows& rows) {
-  std::ranges::sort(row);
-  rows.columns.insert(rows.columns.end(), row.begin(), std::ranges::unique(row).begin());
-  rows.starts.push_back(static_cast<int>(rows.columns.size()));
-  row.clear();
-}
-
 OwnedMat ones(const Ranks& ranks, Rows& rows, int own_columns) {
   rows.values.assign(rows.columns.size(), 1.0);
   return copied(ranks, rows, own_columns);
@@ -28,7 +20,7 @@ OwnedMat of_nodes(const HalfMatrix& A) {
   std::vector<int> row;
   for (int node = 0; node < A.nodes(); ++node) {
     A.each_block(node, [&](int other, const double*, HalfMatrix::Read) { row.push_back(A.number(other)); });
-    close_row(row, nodes);
+    nodes.append_columns(row);
   }
   return ones(A.ranks(), nodes, A.nodes());
 }
@@ -41,7 +33,7 @@ OwnedMat of_nodes(Mat interpolation) {
   std::vector<int> row;
   for (int first = 0; first < view.count(); first += size.rows) {
     for (int r = first; r < first + size.rows; ++r) view.for_each(r, [&](int column, double) { row.push_back(column / size.columns); });
-    close_row(row, nodes);
+    nodes.append_columns(row);
   }
   return ones(ranks_of(interpolation), nodes, view.own_columns / size.columns);
 }
@@ -57,10 +49,10 @@ HalfMatrix coarse_matrix(const HalfMatrix& A, Mat P) {
   const LocalRows view(pairs);
   for (int i = 0; i < view.count(); ++i) {
     view.for_each(i, [&](int other, double) { row.push_back(other); });
-    close_row(row, nodes);
+    nodes.append_columns(row);
   }
   HalfMatrix C(A.ranks(), HalfRows(BlockSize(P).columns, view.first_row, nodes));
-  for (int row = 0; row < C.rows(); ++row) C.diagonal(row) = 1;
+  for (int i = 0; i < C.rows(); ++i) C.diagonal(i) = 1;
   return C;
 }
 

@@ -61,14 +61,16 @@ HalfMatrix::HalfMatrix(const Ranks& ranks, HalfRows rows)
 double* HalfMatrix::find(int row, int column) {
   const int r = row % block(), c = column % block();
   const HalfRows::Place at = rows_.place(rows_.first + row / block(), column / block());
-  return at.numbers ? at.numbers + (at.transposed ? c * block() + r : r * block() + c) : nullptr;
+  return at.numbers ? &at.at(block(), r, c) : nullptr;
 }
 
 void HalfMatrix::fetch(const double* x) {
-  std::vector<std::vector<double>> to(asked_.size());
-  for (std::size_t rank = 0; rank < asked_.size(); ++rank)
-    for (const int node : asked_[rank]) to[rank].insert(to[rank].end(), x + static_cast<std::size_t>(node) * block(), x + static_cast<std::size_t>(node + 1) * block());
-  ranks_.exchange(to, other_counts_, theirs_);
+  sent_.resize(asked_.size());
+  for (std::size_t rank = 0; rank < asked_.size(); ++rank) {
+    sent_[rank].clear();
+    for (const int node : asked_[rank]) sent_[rank].insert(sent_[rank].end(), x + static_cast<std::size_t>(node) * block(), x + static_cast<std::size_t>(node + 1) * block());
+  }
+  ranks_.exchange(sent_, other_counts_, theirs_);
 }
 
 void HalfMatrix::times(const double* x, double* y) {

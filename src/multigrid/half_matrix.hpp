@@ -34,6 +34,9 @@ struct HalfRows {
     int row = -1, column = -1;  ///< nodes
     double* numbers = nullptr;
     bool transposed = false;
+
+    /// The number at a row and a column of the block.
+    double& at(int block, int r, int c) const { return numbers[transposed ? c * block + r : r * block + c]; }
   };
   Place place(int row, int column);
 };
@@ -133,9 +136,10 @@ class HalfMatrix {
   Buckets above_, above_places_;   ///< of each own node those with a block in its column, and the places of these blocks
   std::vector<int> others_, other_places_;  ///< the latter: of rows_.others in the former
   std::vector<int> border_;
-  std::vector<std::vector<int>> asked_;                         ///< by rank the own nodes whose numbers it needs
-  std::vector<int> other_counts_;                               ///< by rank how many of others_ are its
-  std::vector<double> theirs_;                                  ///< of the nodes others_
+  std::vector<std::vector<int>> asked_;    ///< by rank the own nodes whose numbers it needs
+  std::vector<std::vector<double>> sent_;  ///< these numbers
+  std::vector<int> other_counts_;          ///< by rank how many numbers it sends
+  std::vector<double> theirs_;             ///< of the nodes others_
   Room room_;
 };
 
@@ -157,19 +161,16 @@ HalfRows half_rows(int block, int first, int nodes, const Each& each) {
   std::vector<int> row;
   for (int node = 0; node < nodes; ++node) {
     row.assign(pairs[node].begin(), pairs[node].end());
-    std::ranges::sort(row);
-    coupled.columns.insert(coupled.columns.end(), row.begin(), std::ranges::unique(row).begin());
-    coupled.starts.push_back(static_cast<int>(coupled.columns.size()));
+    coupled.append_columns(row);
   }
   HalfRows rows(block, first, coupled);
   HalfRows::Place last_place;
   each([&](int i, int j, double number) {
     const int a = i / block, b = j / block, r = i % block, c = j % block;
     if (a != last_place.row || b != last_place.column) last_place = rows.place(a, b);
-    double* numbers = last_place.numbers;
-    if (!numbers) return;
-    numbers[last_place.transposed ? c * block + r : r * block + c] = number;
-    if (a == b) numbers[c * block + r] = number;
+    if (!last_place.numbers) return;
+    last_place.at(block, r, c) = number;
+    if (a == b) last_place.at(block, c, r) = number;
   });
   return rows;
 }

@@ -1,7 +1,6 @@
 #include "multigrid/hierarchy.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 #include <utility>
 

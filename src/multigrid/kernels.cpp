@@ -138,12 +138,13 @@ DOTYK_CLONES void multiply_of_three(const HalfBlocks<double>& A, double* x, doub
 DOTYK_CLONES void forward_of_three(const HalfBlocks<float>& A, const double* inverse, double* x, double* left) { Kernel<3, float>{A}.forward(inverse, x, left); }
 DOTYK_CLONES void backward_of_three(const HalfBlocks<float>& A, const double* inverse, double* b, double* x) { Kernel<3, float>{A}.backward(inverse, b, x); }
 
-/// Calls work.operator()<rows>() with the size as a constant; 3 is left to others.
+/// Calls work.operator()<rows>() with the size as a constant.
 template <class Work>
 void dispatch(int size, const Work& work) {
   switch (size) {
     case 1: return work.template operator()<1>();
     case 2: return work.template operator()<2>();
+    case 3: return work.template operator()<3>();
     case 4: return work.template operator()<4>();
     case 5: return work.template operator()<5>();
     case 6: return work.template operator()<6>();
@@ -199,8 +200,7 @@ template <int rows>
 
 void invert(int rows, const double* block, double* inverse) {
   bool done = false;
-  if (rows == 3) done = inverted<3>(block, inverse);
-  else dispatch(rows, [&]<int constant>() { done = inverted<constant>(block, inverse); });
+  dispatch(rows, [&]<int constant>() { done = inverted<constant>(block, inverse); });
   if (done) return;
   for (int k = 0; k < rows * rows; ++k) inverse[k] = k % (rows + 1) == 0 ? 1 / (rows * block[k]) : 0;
 }

@@ -55,9 +55,7 @@ OwnedMat matrix_of(const Ranks& ranks, Rows& rows, Rows& others, int own_columns
   if (ranks.alone()) {
     check(MatCreateSeqAIJWithArrays(ranks.comm(), count, own_columns, rows.starts.data(), rows.columns.data(), rows.values.data(), m.put()));
   } else {
-    int up_to = 0;
-    MPI_Scan(&own_columns, &up_to, 1, MPI_INT, MPI_SUM, ranks.comm());
-    split(rows, others, up_to - own_columns, own_columns);
+    split(rows, others, ranks.before(own_columns), own_columns);
     check(MatCreateMPIAIJWithSplitArrays(ranks.comm(), count, own_columns, PETSC_DETERMINE, PETSC_DETERMINE, rows.starts.data(), rows.columns.data(),
                                          rows.values.data(), others.starts.data(), others.columns.data(), others.values.data(), m.put()));
   }

@@ -35,36 +35,25 @@ class Owned {
   Object object_ = nullptr;
 };
 
-/// Of one matrix: what MatCreateSubMatrices() returns.
+/// Destroys an array of one matrix, as MatCreateSubMatrices() makes it.
 inline PetscErrorCode destroy_array(Mat** matrices) { return *matrices ? MatDestroySubMatrices(1, matrices) : 0; }
 
 /// The numbers of a vector that this process has, for as long as this lives.
-class Numbers {
+template <class Number, PetscErrorCode (*get)(Vec, Number**), PetscErrorCode (*restore)(Vec, Number**)>
+class NumbersOf {
  public:
-  explicit Numbers(Vec of) : of_(of) { check(VecGetArray(of_, &numbers_)); }
-  ~Numbers() { VecRestoreArray(of_, &numbers_); }
-  Numbers(const Numbers&) = delete;
-  Numbers& operator=(const Numbers&) = delete;
-  operator double*() { return numbers_; }
+  explicit NumbersOf(Vec of) : of_(of) { check(get(of_, &numbers_)); }
+  ~NumbersOf() { restore(of_, &numbers_); }
+  NumbersOf(const NumbersOf&) = delete;
+  NumbersOf& operator=(const NumbersOf&) = delete;
+  operator Number*() const { return numbers_; }
 
  private:
   Vec of_;
-  PetscScalar* numbers_ = nullptr;
+  Number* numbers_ = nullptr;
 };
-
-/// The same, to be read.
-class ReadNumbers {
- public:
-  explicit ReadNumbers(Vec of) : of_(of) { check(VecGetArrayRead(of_, &numbers_)); }
-  ~ReadNumbers() { VecRestoreArrayRead(of_, &numbers_); }
-  ReadNumbers(const ReadNumbers&) = delete;
-  ReadNumbers& operator=(const ReadNumbers&) = delete;
-  operator const double*() const { return numbers_; }
-
- private:
-  Vec of_;
-  const PetscScalar* numbers_ = nullptr;
-};
+using Numbers = NumbersOf<PetscScalar, VecGetArray, VecRestoreArray>;
+using ReadNumbers = NumbersOf<const PetscScalar, VecGetArrayRead, VecRestoreArrayRead>;
 
 using OwnedMat = Owned<Mat, MatDestroy>;
 using OwnedVec = Owned<Vec, VecDestroy>;

@@ -43,14 +43,12 @@ double mean_diagonal(const algebra::SparseMatrix& lower) {
   return sum / static_cast<double>(lower.cols());
 }
 
-/// The rows of `from` whose new numbers are in the range; null: numbers stay as they are.
-Rows some_rows(const algebra::SparseRows& from, const std::vector<int>* row_number, const std::vector<int>* column_number, const Range& range,
+/// The rows of `from` whose new numbers are in the range, with new numbers of columns.
+Rows some_rows(const algebra::SparseRows& from, const std::vector<int>& row_number, const std::vector<int>& column_number, const Range& range,
                const std::vector<int>& idle = {}) {
   std::vector<int> origin(static_cast<std::size_t>(range.count()), -1);  // row of `from`
-  for (int i = 0; i < from.rows(); ++i) {
-    const int row = row_number ? (*row_number)[i] : i;
-    if (range.has(row)) origin[row - range.first] = i;
-  }
+  for (int i = 0; i < from.rows(); ++i)
+    if (const int row = row_number[i]; range.has(row)) origin[row - range.first] = i;
   std::vector<char> is_idle(origin.size(), 0);
   for (const int i : idle)
     if (range.has(i)) is_idle[i - range.first] = 1;
@@ -58,7 +56,7 @@ Rows some_rows(const algebra::SparseRows& from, const std::vector<int>* row_numb
   for (int r = 0; r < range.count(); ++r) {
     if (origin[r] >= 0)
       for (algebra::SparseRows::InnerIterator it(from, origin[r]); it; ++it) {
-        rows.columns.push_back(column_number ? (*column_number)[it.col()] : static_cast<int>(it.col()));
+        rows.columns.push_back(column_number[it.col()]);
         rows.values.push_back(it.value());
       }
     if (is_idle[r]) rows.columns.push_back(range.first + r), rows.values.push_back(1.0);
@@ -165,9 +163,9 @@ Piece Pieces::of(int rank) const {
   p.block = numbering_.block(), p.dimension = matrix_.dimension, p.motions = static_cast<int>(near_kernel_.cols());
   for (int l = 0; l <= meshes; ++l) p.own.push_back(range_of(rank, numbering_, l).count());
   for (int l = 0; l < meshes; ++l)
-    p.functions.push_back(some_rows((*matrix_.coarse)[l], l == 0 ? &numbering_.slot() : &numbering_.functions(l), &numbering_.functions(l + 1),
+    p.functions.push_back(some_rows((*matrix_.coarse)[l], l == 0 ? numbering_.slot() : numbering_.functions(l), numbering_.functions(l + 1),
                                     range_of(rank, numbering_, l)));
-  if (matrix_.unknowns) p.unknowns = some_rows(*matrix_.unknowns, &numbering_.slot(), &numbering_.slot(), range_of(rank, numbering_, 0), numbering_.idle());
+  if (matrix_.unknowns) p.unknowns = some_rows(*matrix_.unknowns, numbering_.slot(), numbering_.slot(), range_of(rank, numbering_, 0), numbering_.idle());
   p.modes = some_modes(near_kernel_, meshes > 0 ? numbering_.functions(meshes) : numbering_.slot(), range_of(rank, numbering_, meshes));
   p.matrix = rows_of(rank, finest_, 0, p.block), p.coarser = rows_of(rank, coarser_, 1, p.dimension), p.displaced = rows_of(rank, displaced_, 0, p.block);
   return p;

@@ -8,8 +8,8 @@
 
 namespace dotyk::multigrid {
 
-/// An exact solution at unknowns that share stiffness by a row, by CHOLMOD: there stiff and soft modes have the same unknowns, and sweeps alone would be as many
-/// times slower as the root of the contrast (on elements of order 2, whose rows are means, seven times). Before the coarse correction it follows the sweep,
+/// Solves exactly, by CHOLMOD, at unknowns of a stiff and a soft body that a row couples. There sweeps alone would be as many times slower as the root of the
+/// contrast (on elements of order 2, whose rows are means, seven times). Before the coarse correction it follows the sweep,
 /// after it it comes first, so that the cycle is symmetric. All functions are collective, except any().
 class SharedRows {
  public:

@@ -54,13 +54,17 @@ void add_product(int n, const Entry& entry, double factor, const double* x, doub
 
 }  // namespace
 
+auto Sweeps::inverse_of(int node) const {
+  const int n = A_.block();
+  return [of = inverse_.data() + static_cast<std::size_t>(node) * n * n, n](int r, int c) { return of[r * n + c]; };
+}
+
 void Sweeps::sweep_border_forward(double* x, double* left) {
   if (A_.ranks().alone()) return;
   const int n = A_.block();
-  const auto inverse_of = [&](int node) { return [of = inverse_.data() + static_cast<std::size_t>(node) * n * n, n](int r, int c) { return of[r * n + c]; }; };
-  work_.assign(static_cast<std::size_t>(A_.rows()), 0.0);
   for (const int node : A_.border()) {
     double* change = work_.data() + static_cast<std::size_t>(node) * n;
+    std::fill_n(change, n, 0.0);
     add_product(n, inverse_of(node), 1, left + static_cast<std::size_t>(node) * n, change);
     for (int r = 0; r < n; ++r) x[static_cast<std::size_t>(node) * n + r] += change[r];
     A_.each_block(node, [&](int other, const double* block, HalfMatrix::Read read) {  // the block of row `other` and column `node` is its transpose
@@ -74,8 +78,6 @@ void Sweeps::sweep_border_forward(double* x, double* left) {
 void Sweeps::sweep_border_backward(const double* b, double* x) {
   if (A_.ranks().alone()) return;
   const int n = A_.block();
-  const auto inverse_of = [&](int node) { return [of = inverse_.data() + static_cast<std::size_t>(node) * n * n, n](int r, int c) { return of[r * n + c]; }; };
-  work_.assign(static_cast<std::size_t>(A_.rows()), 0.0);
   A_.times_others(x, [&](int row, double number) { work_[row] = number; });
   double left[kMostRows];
   for (std::size_t k = A_.border().size(); k-- > 0;) {

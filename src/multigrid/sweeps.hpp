@@ -15,7 +15,7 @@ namespace dotyk::multigrid {
 class Sweeps {
  public:
   /// `A` must outlive this.
-  explicit Sweeps(HalfMatrix& A) : A_(A) {}
+  explicit Sweeps(HalfMatrix& A) : A_(A), work_(A.ranks().alone() ? 0 : static_cast<std::size_t>(A.rows()), 0.0) {}
 
   /// Takes the numbers of A, and the relaxation ω of nodes that are coupled to other ranks.
   void set(double omega);
@@ -27,6 +27,8 @@ class Sweeps {
 
  private:
   HalfBlocks<float> half() const;
+  /// The numbers of the inverse of a node's block, by row and column.
+  auto inverse_of(int node) const;
   void sweep_border_forward(double* x, double* left);
   void sweep_border_backward(const double* b, double* x);
 
@@ -34,14 +36,14 @@ class Sweeps {
   double unit_ = 1;  ///< of below_: a power of two that brings these numbers to about 1, within the range of floats
   std::vector<float> below_;
   std::vector<double> inverse_;
-  std::vector<double> work_;  ///< by own rows, where there are several ranks
+  std::vector<double> work_;  ///< by own rows, zero but at the border
 };
 
 /// The relaxation factor ω of such sweeps at nodes that are coupled to other ranks; 1 on one rank. A = A_local + A_between, where A_between couples nodes of
 /// different ranks, and D has the blocks of the diagonal. The matrix M of a sweep satisfies M + Mᵀ − A = (2/ω − 1) D − A_between, where ω is 1 at other nodes. If
 /// this is positive definite, the sweep converges and a V-cycle of it is positive definite (Baker, Falgout, Kolev and Yang, SIAM J. Sci. Comput. 33 (2011),
-/// §4). So ω = min(1, 2/(1 + c)) where c is the greatest eigenvalue of
-/// D^−1/2 A_between D^−1/2, by Lanczos and 3 % more. c is below 1 if pieces are large, and up to 3.3 if most nodes of a rank are coupled to nodes of others.
+/// §4). The second sweep of the border meets the same condition on these nodes alone. So ω = min(1, 2/(1 + c)) where c is the greatest eigenvalue of
+/// D^−1/2 A_between D^−1/2, by Lanczos and 3 % more. c is below 1 if pieces are large, and up to 3.3 if most nodes of a rank are coupled to others.
 /// `solved`: rows of this rank, counted from its first, ascending, that are solved exactly as well; they are left out of the eigenvalue problem.
 /// Collective.
 double damping(HalfMatrix& A, const std::vector<int>& solved = {});

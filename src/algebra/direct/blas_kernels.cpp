@@ -10,7 +10,7 @@ extern "C" char* openblas_get_corename();
 namespace dotyk::algebra {
 namespace {
 
-/// The kernels that this processor can use, by OpenBLAS's names; null: others than x86.
+/// OpenBLAS's name of the best kernels for this processor; null where it has no AVX2.
 const char* kernels_by_features() {
 #ifdef __x86_64__
   if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl"))
