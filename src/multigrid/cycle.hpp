@@ -17,6 +17,7 @@ class Cycle {
   Cycle(const Ranks& ranks, Piece piece, const Change& first);
 
   bool set(const Change& change);
+  HalfRows take_coarser() { return hierarchy_.take_coarser(); }  ///< as in Hierarchy
 
   struct Solution {
     bool found = false;  ///< else x has no meaning: an indefinite matrix, too many iterations

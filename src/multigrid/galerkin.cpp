@@ -7,60 +7,13 @@
 
 namespace dotyk::multigrid {
 
-namespace {
-
-OwnedMat ones(const Ranks& ranks, Rows& rows, int own_columns) {
-  rows.values.assign(rows.columns.size(), 1.0);
-  return copied(ranks, rows, own_columns);
-}
-
-/// 1 for each pair of nodes that A couples.
-OwnedMat of_nodes(const HalfMatrix& A) {
-  Rows nodes;
-  std::vector<int> row;
-  for (int node = 0; node < A.nodes(); ++node) {
-    A.each_block(node, [&](int other, const double*, HalfMatrix::Read) { row.push_back(A.number(other)); });
-    nodes.append_columns(row);
-  }
-  return ones(A.ranks(), nodes, A.nodes());
-}
-
-/// 1 for each pair of a node of the rows and one of the columns that have entries.
-OwnedMat of_nodes(Mat interpolation) {
-  const BlockSize size(interpolation);
-  const LocalRows view(interpolation);
-  Rows nodes;
-  std::vector<int> row;
-  for (int first = 0; first < view.count(); first += size.rows) {
-    for (int r = first; r < first + size.rows; ++r) view.for_each(r, [&](int column, double) { row.push_back(column / size.columns); });
-    nodes.append_columns(row);
-  }
-  return ones(ranks_of(interpolation), nodes, view.own_columns / size.columns);
-}
-
-}  // namespace
-
-HalfMatrix coarse_matrix(const HalfMatrix& A, Mat P) {
-  const OwnedMat fine = of_nodes(A), interpolation = of_nodes(P);
-  OwnedMat pairs;
-  check(MatPtAP(fine, interpolation, MAT_INITIAL_MATRIX, PETSC_DEFAULT, pairs.put()));
-  Rows nodes;
-  std::vector<int> row;
-  const LocalRows view(pairs);
-  for (int i = 0; i < view.count(); ++i) {
-    view.for_each(i, [&](int other, double) { row.push_back(other); });
-    nodes.append_columns(row);
-  }
-  HalfMatrix C(A.ranks(), HalfRows(BlockSize(P).columns, view.first_row, nodes));
-  for (int i = 0; i < C.rows(); ++i) C.diagonal(i) = 1;
-  return C;
-}
-
-Galerkin::Galerkin(const HalfMatrix& fine, Mat interpolation, const HalfMatrix& coarse) : size_(coarse.block()), fine_(fine.block()), own_(fine.nodes()) {
+Galerkin::Galerkin(const HalfMatrix& fine, Mat interpolation) : size_(BlockSize(interpolation).columns), fine_(fine.block()), own_(fine.nodes()) {
   const Ranks& ranks = fine.ranks();
-  PetscInt columns = 0;
+  PetscInt columns = 0, first = 0, end = 0;
   check(MatGetSize(interpolation, nullptr, &columns));
-  firsts_ = ranks.gather(coarse.first_row() / size_);
+  check(MatGetOwnershipRangeColumn(interpolation, &first, &end));
+  first_own_ = first / size_, own_blocks_ = (end - first) / size_;
+  firsts_ = ranks.gather(first_own_);
   if (!ranks.alone()) {
     const std::vector<int>& others = fine.others();
     below_ = static_cast<int>(std::ranges::lower_bound(others, fine.first_row() / fine_) - others.begin());
@@ -87,7 +40,68 @@ Galerkin::Galerkin(const HalfMatrix& fine, Mat interpolation, const HalfMatrix& 
   first_ = Buckets(blocks, [&](auto&& put) { for_each([&](int block, int, int place) { put(block, place); }); });
   entries_.assign(static_cast<std::size_t>(fine_ * size_), 0.0);
   product_ = SomeRows(own_ + static_cast<int>(fine.others().size()), fine_ * size_);
-  sum_ = SomeRows(columns, size_);
+  sum_ = SomeRows(blocks, size_ * size_);
+}
+
+HalfMatrix Galerkin::pattern(const HalfMatrix& fine, Mat interpolation) const {
+  const RowsView P(reached_ ? *reached_ : interpolation);
+  std::vector<int> row;
+  Rows parents;  // of each fine node that is reached, as HalfMatrix counts them
+  for (int node = 0; node < own_ + static_cast<int>(fine.others().size()); ++node) {
+    const int begin = P.starts[reached_row(node)], end = P.starts[reached_row(node) + fine_];
+    for (int k = begin; k < end; ++k)
+      if (k == begin || P.columns[k] / size_ != P.columns[k - 1] / size_) row.push_back(P.columns[k] / size_);
+    parents.append_columns(row);
+  }
+  std::vector<std::vector<int>> out(firsts_.size()), own(static_cast<std::size_t>(own_blocks_));
+  std::vector<int> met(static_cast<std::size_t>(support_.count()), -1);  // by coarse node: the last block that it was met from
+  for (int block = 0; block < support_.count(); ++block) {
+    row.clear();
+    for (int before = -1; const int i : support_[block]) {
+      const int node = i / fine_ - below_;
+      if (std::exchange(before, node) == node) continue;
+      fine.each_block(node, [&](int other, const double*, HalfMatrix::Read) {
+        for (int k = parents.starts[other]; k < parents.starts[other + 1]; ++k)
+          if (const int parent = parents.columns[k]; std::exchange(met[parent], block) != block) row.push_back(parent);
+      });
+    }
+    if (mine(block)) {
+      own[block - first_own_] = row;
+    } else if (!row.empty()) {
+      std::vector<int>& to = out[rank_of(block)];
+      to.push_back(static_cast<int>(row.size())), to.push_back(block), to.insert(to.end(), row.begin(), row.end());
+    }
+  }
+  if (!fine.ranks().alone())
+    for (const std::vector<int>& in : fine.ranks().exchange(out))
+      for (auto at = in.begin(); at != in.end();) {
+        const int count = *at++;
+        std::vector<int>& to = own[*at++ - first_own_];
+        to.insert(to.end(), at, at + count), at += count;
+      }
+  Rows nodes;
+  for (std::vector<int>& of : own) nodes.append_columns(of);
+  HalfMatrix C(fine.ranks(), HalfRows(size_, first_own_, nodes));
+  for (int i = 0; i < C.rows(); ++i) C.diagonal(i) = 1;
+  return C;
+}
+
+int Galerkin::rank_of(int block) const { return static_cast<int>(std::ranges::upper_bound(firsts_, block) - firsts_.begin()) - 1; }
+
+void Galerkin::find_multiples(const RowsView& P) {
+  multiples_.assign(product_.count(), 0);
+  if (fine_ != size_) return;
+  const auto equal = [&](int row, int r) {
+    const int begin = P.starts[row], at = P.starts[row + r], count = P.starts[row + 1] - begin;
+    if (P.starts[row + r + 1] - at != count) return false;
+    for (int k = 0; k < count; ++k)
+      if (P.columns[begin + k] % size_ != 0 || P.columns[at + k] != P.columns[begin + k] + r || P.values[at + k] != P.values[begin + k]) return false;
+    return true;
+  };
+  for (std::size_t node = 0; node < multiples_.size(); ++node) {
+    multiples_[node] = 1;
+    for (int r = 1; r < fine_ && multiples_[node]; ++r) multiples_[node] = equal(reached_row(static_cast<int>(node)), r);
+  }
 }
 
 int Galerkin::reached_row(int node) const {
@@ -119,19 +133,41 @@ void Galerkin::add_node(int node, const HalfMatrix& A) {
   });
 }
 
+/// The same where P_iJ is a multiple of the identity.
+template <int columns>
+void Galerkin::add_scaled(int node, double factor, const HalfMatrix& A) {
+  const int n = columns > 0 ? columns : size_;
+  if (factor == 0) return;
+  A.each_block(node, [&](int other, const double* block, HalfMatrix::Read read) {
+    double* to = product_.at(other);
+    if (read == HalfMatrix::Read::transposed)
+      for (int k = 0; k < n * n; ++k) to[k] += factor * block[k];
+    else
+      for (int r = 0; r < n; ++r)
+        for (int c = 0; c < n; ++c) to[c * n + r] += factor * block[r * n + c];
+  });
+}
+
 /// Adds P_kᵀ (A P)_kJ to sum_, for all fine nodes k in product_. Then product_ is empty.
 template <int columns>
 void Galerkin::add_product(const RowsView& P) {
   const int m = columns > 0 ? columns : size_;
-  for (std::size_t p = 0; p < product_.rows().size(); ++p)
-    for (int member = 0; member < fine_; ++member) {
-      const int row = reached_row(product_.rows()[p]) + member;
-      const double* from = product_.numbers(p) + member * m;
+  for (std::size_t p = 0; p < product_.rows().size(); ++p) {
+    const int node = product_.rows()[p], first = reached_row(node);
+    const double* from = product_.numbers(p);
+    if (multiples_[node]) {
+      for (int k = P.starts[first]; k < P.starts[first + 1]; ++k) {
+        double* to = sum_.at(P.columns[k] / m);
+        for (int r = 0; r < m * m; ++r) to[r] += P.values[k] * from[r];
+      }
+      continue;
+    }
+    for (int row = first; row < first + fine_; ++row, from += m)
       for (int k = P.starts[row]; k < P.starts[row + 1]; ++k) {
-        double* to = sum_.at(P.columns[k]);
+        double* to = sum_.at(P.columns[k] / m) + P.columns[k] % m * m;
         for (int r = 0; r < m; ++r) to[r] += P.values[k] * from[r];
       }
-    }
+  }
   product_.clear();
 }
 
@@ -141,6 +177,11 @@ void Galerkin::compute_block(int block, const HalfMatrix& A, const RowsView& P) 
   const auto rows = support_[block], first = first_[block];
   for (std::size_t s = 0; s < rows.size();) {
     const int node = rows[s] / n - below_;
+    if (multiples_[node]) {
+      add_scaled<columns>(node, P.values[first[s]], A);
+      s += static_cast<std::size_t>(n);
+      continue;
+    }
     std::fill(entries_.begin(), entries_.end(), 0.0);
     for (; s < rows.size() && rows[s] / n - below_ == node; ++s)
       for (int k = first[s]; k < P.starts[rows[s] + 1] && P.columns[k] / m == block; ++k) entries_[rows[s] % n * m + P.columns[k] - block * m] = P.values[k];
@@ -151,26 +192,18 @@ void Galerkin::compute_block(int block, const HalfMatrix& A, const RowsView& P) 
 
 void Galerkin::put_block(int block, HalfMatrix& C) {
   C.each_own_block(block - C.first_row() / size_, [&](int other, double* numbers) {
-    for (int c = 0; c < size_; ++c) {
-      const double* computed = sum_.at(C.number(other) * size_ + c);
-      for (int r = 0; r < size_; ++r) numbers[r * size_ + c] = computed[r];
-    }
+    const double* computed = sum_.at(C.number(other));
+    for (int c = 0; c < size_; ++c)
+      for (int r = 0; r < size_; ++r) numbers[r * size_ + c] = computed[c * size_ + r];
   });
 }
 
 void Galerkin::append_block(int block, int rank, Outgoing& out) {
-  std::vector<int> nodes;
-  for (const int column : sum_.rows()) nodes.push_back(column / size_);
-  std::ranges::sort(nodes);
-  nodes.erase(std::ranges::unique(nodes).begin(), nodes.end());
+  const std::vector<int>& nodes = sum_.rows();
   out.nodes[rank].push_back(static_cast<int>(nodes.size()));
   out.nodes[rank].push_back(block);
   out.nodes[rank].insert(out.nodes[rank].end(), nodes.begin(), nodes.end());
-  for (const int node : nodes)
-    for (int c = 0; c < size_; ++c) {
-      const double* computed = sum_.at(node * size_ + c);
-      out.numbers[rank].insert(out.numbers[rank].end(), computed, computed + size_);
-    }
+  for (std::size_t k = 0; k < nodes.size(); ++k) out.numbers[rank].insert(out.numbers[rank].end(), sum_.numbers(k), sum_.numbers(k) + size_ * size_);
 }
 
 void Galerkin::add(const Outgoing& in, HalfMatrix& C) const {
@@ -204,17 +237,17 @@ std::vector<char> Galerkin::compute(const HalfMatrix& fine, Mat interpolation, H
   if (!ranks.alone()) MPI_Allreduce(MPI_IN_PLACE, due.data(), static_cast<int>(due.size()), MPI_BYTE, MPI_BOR, ranks.comm());
   Outgoing out{std::vector<std::vector<int>>(firsts_.size()), std::vector<std::vector<double>>(firsts_.size())};
   const RowsView P(reached_ ? *reached_ : interpolation);
+  find_multiples(P);
   for (int b = 0; b < support_.count(); ++b) {
-    const bool mine = coarse.has(b * size_);
-    if (!due[b] || (!mine && support_[b].empty())) continue;
+    if (!due[b] || (!mine(b) && support_[b].empty())) continue;
     if (fine_ == 3 && size_ == 3) compute_block<3, 3>(b, fine, P);
     else if (size_ == 6) compute_block<0, 6>(b, fine, P);
     else compute_block<0, 0>(b, fine, P);
-    if (mine) {
+    if (mine(b)) {
       put_block(b, coarse);
       std::fill_n(computed.begin() + b * size_ - coarse.first_row(), size_, char(1));
     } else {
-      append_block(b, static_cast<int>(std::ranges::upper_bound(firsts_, b) - firsts_.begin()) - 1, out);
+      append_block(b, rank_of(b), out);
     }
     sum_.clear();
   }

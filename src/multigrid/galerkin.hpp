@@ -10,17 +10,15 @@
 
 namespace dotyk::multigrid {
 
-/// The identity, with room for PᵀAP: a block of entries for each pair of coarse nodes that A couples by way of P. The symbolic product is
-/// made of nodes: of rows it takes a dozen times the memory. Collective.
-HalfMatrix coarse_matrix(const HalfMatrix& A, Mat P);
-
 /// PETSc's own product knows neither that unknowns come in blocks nor that rows stay. Seconds of a set() on a cube of 200 000
 /// unknowns: 1.2 by PETSc's, 0.6 here where all rows are new, 0.02 to 0.2 where a disc on the top is held or let go.
 class Galerkin {
  public:
-  /// `coarse` has the pattern of PᵀAP; its blocks are the coarse nodes. Collective.
-  Galerkin(const HalfMatrix& fine, Mat interpolation, const HalfMatrix& coarse);
+  /// The coarse nodes are the blocks of P's columns. Collective.
+  Galerkin(const HalfMatrix& fine, Mat interpolation);
 
+  /// The identity, with room for PᵀAP: a block of entries for each pair of coarse nodes that A couples by way of P. Collective.
+  HalfMatrix pattern(const HalfMatrix& fine, Mat interpolation) const;
   /// Takes the new numbers of P, also those of rows on other ranks. Collective.
   void fetch(Mat interpolation);
   /// Computes the rows of `coarse` that depend on the given fine rows of A and P, all of this rank. Returns a flag for each coarse row of
@@ -42,9 +40,14 @@ class Galerkin {
   template <int rows_of_node, int columns>
   void add_node(int node, const HalfMatrix& A);
   template <int columns>
+  void add_scaled(int node, double factor, const HalfMatrix& A);
+  template <int columns>
   void add_product(const RowsView& P);
+  void find_multiples(const RowsView& P);
   void put_block(int block, HalfMatrix& C);
   void append_block(int block, int rank, Outgoing& out);
+  int rank_of(int block) const;
+  bool mine(int block) const { return block >= first_own_ && block < first_own_ + own_blocks_; }
   void add(const Outgoing& in, HalfMatrix& C) const;
   /// The row of P, among those reached, of a fine node's first row; nodes as HalfMatrix counts them.
   int reached_row(int node) const;
@@ -57,7 +60,10 @@ class Galerkin {
   Buckets support_;                  // coarse node → the own rows of P with entries in its columns, as rows of reached_
   Buckets first_;                    // beside support_: the first of these entries
   std::vector<int> firsts_;          // by rank its first coarse node
-  // Room to work: `product_` has (A P)_kJ for fine nodes k and the block J, since A is symmetric; `sum_` the block's rows of the coarse matrix, by columns.
+  int first_own_ = 0, own_blocks_ = 0;  // coarse nodes of this rank
+  std::vector<char> multiples_;      // of each fine node that is reached: are its blocks of P multiples of the identity, as those of meshes are?
+  // Room to work: `product_` has (A P)_kJ for fine nodes k and the block J, since A is symmetric; `sum_` the block's rows of the coarse matrix, transposed,
+  // by the nodes of its columns.
   SomeRows product_, sum_;
   std::vector<double> entries_;      // P_iJ of one fine node i
 };

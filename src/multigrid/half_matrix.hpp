@@ -53,6 +53,7 @@ class HalfMatrix {
   HalfMatrix(const Ranks& ranks, HalfRows rows);
 
   const Ranks& ranks() const { return ranks_; }
+  const HalfRows& stored() const { return rows_; }
   int block() const { return rows_.block; }    ///< rows of a node
   int nodes() const { return rows_.nodes(); }  ///< own ones
   int rows() const { return nodes() * block(); }

@@ -111,30 +111,30 @@ OwnedMat product(Mat S, Mat P) {
 Hierarchy::Hierarchy(const Ranks& ranks, Piece piece, const Change& first) : ranks_(ranks), piece_(std::move(piece)) {
   empty_.assign(static_cast<std::size_t>(piece_.own[0]), 0);
   matrices_.emplace_back(ranks_, std::move(piece_.matrix));
-  pending_.emplace_back(empty_.size(), ranks_.all(piece_.coarser.nodes() == 0));
-  take(first);
-  coarsen();
+  pending_.emplace_back(empty_.size(), 1);
+  coarsen(first);
 }
 
 OwnedMat Hierarchy::oblong(Rows& rows, int own_columns, std::array<int, 2> blocks) {
   return matrix_of(ranks_, rows, others_.emplace_back(), own_columns, blocks);
 }
 
-void Hierarchy::coarsen() {
+void Hierarchy::coarsen(const Change& first) {
   const bool same = piece_.unknowns.columns.empty();
   OwnedMat S;
   if (!ranks_.all(same)) S = oblong(piece_.unknowns, piece_.own[0], {piece_.block, piece_.block});
   if (!piece_.functions.empty()) {
     take_functions(S);
+    if (piece_.tells_coarser) tell_coarser();
+    take(first);
     if (aggregates_follow(ranks_.sum(piece_.own.back()), ranks_.sum(piece_.own[0]))) {
       fill_coarse();
       take_aggregates(matrices_.back());
     }
-  } else if (S) {
-    take_aggregates(HalfMatrix(ranks_, std::move(piece_.displaced)));
-    take_unknowns(S);
   } else {
-    take_aggregates(matrices_[0]);
+    take(first);
+    if (S) take_aggregates(HalfMatrix(ranks_, std::move(piece_.displaced))), take_unknowns(S);
+    else take_aggregates(matrices_[0]);
   }
   S = OwnedMat();
   piece_.unknowns = Rows(), piece_.modes = {};
@@ -142,7 +142,7 @@ void Hierarchy::coarsen() {
 }
 
 void Hierarchy::multiply(int level) {
-  products_.emplace_back(matrices_[level], interpolations_[level], matrices_[level + 1]);
+  products_.emplace_back(matrices_[level], interpolations_[level]);
   if (level > 0) pending_.emplace_back(static_cast<std::size_t>(matrices_[level].rows()), 1);
 }
 
@@ -150,12 +150,17 @@ void Hierarchy::take_functions(Mat S) {
   for (std::size_t l = 0; l < piece_.functions.size(); ++l) {
     OwnedMat P = oblong(piece_.functions[l], piece_.own[l + 1], {l == 0 ? piece_.block : piece_.dimension, piece_.dimension});
     if (l == 0 && S) P = product(S, P);
-    const bool known = l == 0 && !ranks_.all(piece_.coarser.nodes() == 0);
-    matrices_.push_back(known ? HalfMatrix(ranks_, std::move(piece_.coarser)) : coarse_matrix(matrices_.back(), P));
-    if (known) make_definite(matrices_[1], std::vector<char>(static_cast<std::size_t>(piece_.own[1]), 1));
     interpolations_.push_back(std::move(P));
     multiply(static_cast<int>(l));
+    matrices_.push_back(products_[l].pattern(matrices_[l], interpolations_[l]));
   }
+}
+
+void Hierarchy::tell_coarser() {
+  const std::vector<char> computed = products_[0].compute(matrices_[0], interpolations_[0], matrices_[1], pending_[0]);
+  std::ranges::fill(pending_[0], 0);
+  coarser_ = matrices_[1].stored();
+  make_definite(matrices_[1], computed);
 }
 
 void Hierarchy::take_aggregates(const HalfMatrix& of) {
@@ -179,8 +184,10 @@ void Hierarchy::take_aggregates(const HalfMatrix& of) {
 void Hierarchy::take_unknowns(Mat S) {
   if (interpolations_.empty()) return;
   interpolations_[0] = product(S, interpolations_[0]);
-  for (std::size_t l = 0; l < interpolations_.size(); ++l)  // bodies that nothing joined meet in these patterns
-    matrices_[l + 1] = coarse_matrix(matrices_[l], interpolations_[l]);
+  for (std::size_t l = 0; l < interpolations_.size(); ++l) {  // bodies that nothing joined meet in these patterns
+    multiply(static_cast<int>(l));
+    matrices_[l + 1] = products_[l].pattern(matrices_[l], interpolations_[l]);
+  }
 }
 
 /// Of A, rows and columns of what is held are empty, so that no other rows of coarse matrices depend on these rows of P.

@@ -4,6 +4,7 @@
 #include <array>
 #include <deque>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "multigrid/galerkin.hpp"
@@ -20,6 +21,8 @@ class Hierarchy {
   /// New numbers, and the coarse matrices for them. False where they are seen not to be positive definite.
   bool set(const Change& change);
 
+  /// Of the matrix of the next coarser mesh this rank's rows, without the constructor's `first`, where the piece asks for them; once.
+  HalfRows take_coarser() { return std::move(coarser_); }
   int levels() const { return static_cast<int>(matrices_.size()); }
   HalfMatrix& matrix(int level) { return matrices_[level]; }              ///< from 0, the finest
   Mat interpolation(int level) const { return interpolations_[level]; }   ///< from `level` + 1 to `level`
@@ -30,7 +33,8 @@ class Hierarchy {
   /// Takes the entries. False where a number of the diagonal is not positive.
   bool take(const Change& change);
   OwnedMat oblong(Rows& rows, int own_columns, std::array<int, 2> blocks);
-  void coarsen();
+  void coarsen(const Change& first);
+  void tell_coarser();
   /// Levels of coarser meshes. S: the unknowns, of displacements, all slots; null where they are the same.
   void take_functions(Mat S);
   /// Levels of aggregates below `finest`, which has the modes.
@@ -44,6 +48,7 @@ class Hierarchy {
 
   const Ranks ranks_;
   Piece piece_;                                 // whose functions' arrays are the first interpolations'
+  HalfRows coarser_;
   std::deque<Rows> others_;                     // beside them: in columns of other ranks
   std::deque<HalfMatrix> matrices_;
   std::vector<OwnedMat> interpolations_;

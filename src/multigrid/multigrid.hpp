@@ -29,9 +29,9 @@ struct Matrix {
   /// is no coarser mesh, and all levels are aggregates.
   const std::vector<algebra::SparseRows>* coarse = nullptr;
   int dimension = 3;
-  /// The matrix of the next coarser mesh: the lower triangle of PᵀKP, where K is `lower` and P the first of `coarse` without its empty columns. Null: it
-  /// is computed.
-  const algebra::SparseMatrix* coarser = nullptr;
+  /// Receives the matrix of the next coarser mesh: the lower triangle of PᵀKP, where K is the matrix of displacements, `lower` or `displaced`, without
+  /// `changed`, and P the first of `coarse` without its empty columns. Null: nobody asks.
+  algebra::SparseMatrix* coarser = nullptr;
   /// Other numbers of some entries, as for set(), with which `lower` is positive definite; null: none.
   const algebra::Triplets* changed = nullptr;
   /// solve() gives up when its rate of convergence foretells that twelve digits will take so many more.

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 #include <tuple>
 #include <utility>
+
+#include "base/parallel.hpp"
 
 namespace dotyk::multigrid {
 
@@ -79,20 +82,23 @@ void visit_rows(Rows& rows, Visit&& visit) {
   visit(rows.starts), visit(rows.columns), visit(rows.values);
 }
 
-/// Calls visit(list) for each list of numbers of a piece; a second function does so for a change.
+/// Calls visit(list) for each list of numbers; likewise for a piece and a change.
+template <class Visit>
+void visit_all(HalfRows& rows, Visit&& visit) {
+  std::vector<int> numbers{rows.block, rows.first};
+  visit(numbers);
+  rows.block = numbers[0], rows.first = numbers[1];
+  visit(rows.starts), visit(rows.columns), visit(rows.below), visit(rows.diagonal), visit(rows.other_starts), visit(rows.others), visit(rows.other);
+}
+
 template <class Visit>
 void visit_all(Piece& p, Visit&& visit) {
-  std::vector<int> sizes{p.block, p.dimension, p.motions, static_cast<int>(p.functions.size())};
+  std::vector<int> sizes{p.block, p.dimension, p.motions, p.tells_coarser, static_cast<int>(p.functions.size())};
   visit(sizes);
-  p.block = sizes[0], p.dimension = sizes[1], p.motions = sizes[2];
-  p.functions.resize(static_cast<std::size_t>(sizes[3]));
+  p.block = sizes[0], p.dimension = sizes[1], p.motions = sizes[2], p.tells_coarser = sizes[3];
+  p.functions.resize(static_cast<std::size_t>(sizes[4]));
   visit(p.own);
-  for (HalfRows* rows : {&p.matrix, &p.coarser, &p.displaced}) {
-    std::vector<int> numbers{rows->block, rows->first};
-    visit(numbers);
-    rows->block = numbers[0], rows->first = numbers[1];
-    visit(rows->starts), visit(rows->columns), visit(rows->below), visit(rows->diagonal), visit(rows->other_starts), visit(rows->others), visit(rows->other);
-  }
+  visit_all(p.matrix, visit), visit_all(p.displaced, visit);
   for (Rows& functions : p.functions) visit_rows(functions, visit);
   visit_rows(p.unknowns, visit);
   visit(p.modes);
@@ -118,7 +124,6 @@ Pieces::Pieces(const Matrix& matrix, const Numbering& numbering) : matrix_(matri
   if (!matrix.lower.isCompressed() || static_cast<std::size_t>(matrix.lower.rows()) != matrix.node.size())
     throw std::runtime_error("multigrid: the matrix is not compressed, or nodes are not given for each unknown");
   finest_ = source(matrix.lower, numbering.slot(), numbering.idle());
-  if (matrix.coarser) coarser_ = coarser();
   const int meshes = matrix.coarse ? static_cast<int>(matrix.coarse->size()) : 0;
   if (meshes == 0 || aggregates_follow(numbering.first(meshes).back(), numbering.first(0).back())) near_kernel_ = matrix.near_kernel();
   if (!matrix.displaced) return;
@@ -130,22 +135,76 @@ Pieces::Source Pieces::source(const algebra::SparseMatrix& lower, std::vector<in
   return {&lower, std::move(slot), std::move(idle), mean_diagonal(lower)};
 }
 
-Pieces::Source Pieces::coarser() const {
-  const algebra::SparseRows& functions = matrix_.coarse->front();
-  std::vector<char> used(static_cast<std::size_t>(functions.cols()), 0);
-  for (int i = 0; i < functions.rows(); ++i)
-    for (algebra::SparseRows::InnerIterator it(functions, i); it; ++it) used[it.col()] = 1;
-  std::vector<int> slot, idle;
-  for (std::size_t k = 0; k < used.size(); ++k) (used[k] ? slot : idle).push_back(numbering_.functions(1)[k]);
-  if (static_cast<std::size_t>(matrix_.coarser->rows()) != slot.size()) throw std::runtime_error("multigrid: the coarser matrix is not one of these functions");
-  return source(*matrix_.coarser, std::move(slot), std::move(idle));
+namespace {
+
+/// Calls visit(row, column, number) for the entries of the lower triangle of which these are some rows; `place`: what rows and columns are to be called,
+/// -1 where they are left out.
+template <class Visit>
+void each_lower(const HalfRows& rows, const std::vector<int>& place, const Visit& visit) {
+  const int n = rows.block;
+  const auto block = [&](int row, int column, const double* numbers, const auto& wanted) {
+    for (int r = 0; r < n; ++r)
+      for (int c = 0; c < n; ++c)
+        if (const int i = place[row * n + r], j = place[column * n + c]; i >= 0 && j >= 0 && wanted(i, j)) visit(std::max(i, j), std::min(i, j), numbers[r * n + c]);
+  };
+  const auto all = [](int, int) { return true; };
+  const auto below = [](int i, int j) { return i >= j; };  // those above are another rank's, or stand twice in a block of the diagonal
+  const std::size_t square = static_cast<std::size_t>(n) * n;
+  for (int i = 0; i < rows.nodes(); ++i) {
+    for (int k = rows.starts[i]; k < rows.starts[i + 1]; ++k) block(rows.first + i, rows.first + rows.columns[k], rows.below.data() + k * square, all);
+    block(rows.first + i, rows.first + i, rows.diagonal.data() + i * square, below);
+    for (int k = rows.other_starts[i]; k < rows.other_starts[i + 1]; ++k) block(rows.first + i, rows.others[k], rows.other.data() + k * square, below);
+  }
 }
 
-HalfRows Pieces::rows_of(int rank, const Source& source, int level, int block) const {
+/// Sorts the rows of each column.
+void sort_columns(algebra::SparseMatrix& matrix) {
+  constexpr Eigen::Index kFew = 1'000'000;  // entries, for a thread
+  const int threads = threads_for(matrix.nonZeros(), kFew);
+  parallel_ranges(static_cast<int>(matrix.cols()), threads, [&](int, int first, int end) {
+    std::vector<std::pair<int, double>> column;
+    for (int j = first; j < end; ++j) {
+      const int begin = matrix.outerIndexPtr()[j];
+      column.clear();
+      for (algebra::SparseMatrix::InnerIterator it(matrix, j); it; ++it) column.emplace_back(it.row(), it.value());
+      std::ranges::sort(column);
+      for (std::size_t k = 0; k < column.size(); ++k) std::tie(matrix.innerIndexPtr()[begin + k], matrix.valuePtr()[begin + k]) = column[k];
+    }
+  });
+}
+
+}  // namespace
+
+algebra::SparseMatrix Pieces::coarser(const std::vector<HalfRows>& of_ranks) const {
+  const algebra::SparseRows& functions = matrix_.coarse->front();
+  std::vector<char> used(static_cast<std::size_t>(functions.cols()), 0);
+  for (Eigen::Index k = 0; k < functions.nonZeros(); ++k) used[functions.innerIndexPtr()[k]] = 1;
+  std::vector<int> place(used.size(), -1);
+  int count = 0;
+  for (std::size_t k = 0; k < used.size(); ++k)
+    if (used[k]) place[numbering_.functions(1)[k]] = count++;
+  const auto each = [&](auto&& visit) {
+    for (const HalfRows& rows : of_ranks) each_lower(rows, place, visit);
+  };
+  algebra::SparseMatrix lower(count, count);
+  int* starts = lower.outerIndexPtr();
+  each([&](int, int column, double) { ++starts[column + 1]; });
+  std::partial_sum(starts, starts + count + 1, starts);
+  lower.resizeNonZeros(starts[count]);
+  std::vector<int> next(starts, starts + count);
+  each([&](int row, int column, double number) {
+    lower.innerIndexPtr()[next[column]] = row;
+    lower.valuePtr()[next[column]++] = number;
+  });
+  sort_columns(lower);
+  return lower;
+}
+
+HalfRows Pieces::rows_of(int rank, const Source& source, int block) const {
   if (!source.lower) return {};
   const algebra::SparseMatrix& lower = *source.lower;
   const std::vector<int>& slot = source.slot;
-  const Range range = range_of(rank, numbering_, level);
+  const Range range = range_of(rank, numbering_, 0);
   return half_rows(block, range.first / block, range.count() / block, [&](auto&& visit) {
     for (int j = 0; j < lower.cols(); ++j) {
       const int column = slot[j];
@@ -167,7 +226,8 @@ Piece Pieces::of(int rank) const {
                                     range_of(rank, numbering_, l)));
   if (matrix_.unknowns) p.unknowns = some_rows(*matrix_.unknowns, numbering_.slot(), numbering_.slot(), range_of(rank, numbering_, 0), numbering_.idle());
   p.modes = some_modes(near_kernel_, meshes > 0 ? numbering_.functions(meshes) : numbering_.slot(), range_of(rank, numbering_, meshes));
-  p.matrix = rows_of(rank, finest_, 0, p.block), p.coarser = rows_of(rank, coarser_, 1, p.dimension), p.displaced = rows_of(rank, displaced_, 0, p.block);
+  p.tells_coarser = matrix_.coarser && meshes > 0;
+  p.matrix = rows_of(rank, finest_, p.block), p.displaced = rows_of(rank, displaced_, p.block);
   return p;
 }
 
@@ -175,6 +235,10 @@ void send(const Ranks& ranks, int to, Piece& piece) {
   visit_all(piece, [&](const auto& numbers) { ranks.send(to, numbers); });
 }
 Piece receive_piece(const Ranks& ranks, int from) { return receive_whole<Piece>(ranks, from); }
+void send(const Ranks& ranks, int to, HalfRows& rows) {
+  visit_all(rows, [&](const auto& numbers) { ranks.send(to, numbers); });
+}
+HalfRows receive_rows(const Ranks& ranks, int from) { return receive_whole<HalfRows>(ranks, from); }
 void send(const Ranks& ranks, int to, Change& change) {
   visit_all(change, [&](const auto& numbers) { ranks.send(to, numbers); });
 }

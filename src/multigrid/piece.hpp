@@ -14,10 +14,10 @@ namespace dotyk::multigrid {
 struct Piece {
   int block = 1, dimension = 3;  ///< unknowns of a node: on the finest level, on coarser meshes
   int motions = 0;               ///< columns of `modes`
+  int tells_coarser = 0;         ///< 1: rank 0 asks for the matrix of the next coarser mesh
   std::vector<int> own;          ///< how many rows of each level are this rank's
   HalfRows matrix;               ///< idle rows have the mean of its diagonal
   std::vector<Rows> functions;   ///< of each coarser mesh
-  HalfRows coarser;              ///< the matrix of the next coarser mesh, idle where functions are empty. No rows where it is not known
   HalfRows displaced;            ///< as in Matrix, where there are no coarser meshes; idle rows as in `matrix`
   Rows unknowns;                 ///< as in Matrix; idle rows as in the identity. No rows where it has none
   std::vector<double> modes;     ///< near kernel, by columns: on the finest level, or the coarsest mesh
@@ -33,25 +33,28 @@ class Pieces {
   /// Throws std::runtime_error where no pieces can be made: a diagonal that is not positive, a matrix that is no lower triangle.
   Pieces(const Matrix& matrix, const Numbering& numbering);
   Piece of(int rank) const;
+  /// The lower triangle of the matrix of the next coarser mesh, as Matrix::coarser says, from the rows of all ranks.
+  algebra::SparseMatrix coarser(const std::vector<HalfRows>& of_ranks) const;
 
  private:
-  /// The lower triangle of a matrix of one level.
+  /// A lower triangle of the finest level.
   struct Source {
     const algebra::SparseMatrix* lower = nullptr;
     std::vector<int> slot, idle;  ///< number of each row of the triangle; numbers of the rows without unknown
     double mean = 0;              ///< of the diagonal
   };
   static Source source(const algebra::SparseMatrix& lower, std::vector<int> slot, std::vector<int> idle);
-  Source coarser() const;
-  HalfRows rows_of(int rank, const Source& source, int level, int block) const;
+  HalfRows rows_of(int rank, const Source& source, int block) const;
 
   const Matrix& matrix_;
   const Numbering& numbering_;
-  Source finest_, coarser_, displaced_;  // the third where aggregates are made of it
+  Source finest_, displaced_;            // the second where aggregates are made of it
   algebra::DenseMatrix near_kernel_;     // no columns where there are no aggregates
 };
 void send(const Ranks& ranks, int to, Piece& piece);
 Piece receive_piece(const Ranks& ranks, int from);
+void send(const Ranks& ranks, int to, HalfRows& rows);
+HalfRows receive_rows(const Ranks& ranks, int from);
 
 /// How a matrix differs from the one before, as far as one rank's rows of the finest level are concerned.
 struct Change {

@@ -70,7 +70,10 @@ std::vector<int> next_task() {
 
 std::unique_ptr<Cycle> make() {
   Piece piece = receive_piece(world(), 0);
-  return std::make_unique<Cycle>(world(), std::move(piece), receive_change(world(), 0));
+  const bool tells = piece.tells_coarser;
+  auto cycle = std::make_unique<Cycle>(world(), std::move(piece), receive_change(world(), 0));
+  if (HalfRows coarser = cycle->take_coarser(); tells) send(world(), 0, coarser);
+  return cycle;
 }
 
 void solve(Cycle& cycle) {

@@ -54,6 +54,7 @@ struct CoarserBlock {
   std::shared_ptr<const SparseRows> functions;  ///< the unknowns of the finer block by this one's
 };
 
+/// All but K.
 CoarserBlock coarser(const Block& fine, int levels) {
   std::vector<SparseRows> all = fine.coarse.functions(levels);
   const std::vector<int> place = places(all[0]);
@@ -62,7 +63,6 @@ CoarserBlock coarser(const Block& fine, int levels) {
   if (all.size() > 1) all[1] = with_rows(all[1], place);
   Block& block = out.block;
   block.name = fine.name;
-  block.K = algebra::congruent(fine.K, functions);
   block.f = functions.transpose() * fine.f;
   block.offset = fine.offset;
   for (std::size_t k = 0; k < place.size(); ++k)
@@ -103,6 +103,12 @@ std::vector<std::vector<int>> kinds(const Problem& problem) {
       for (int point = 0; point < group.points(); ++point) rows.push_back(group.row(point) + i);
     }
   return all;
+}
+
+/// The part of each block.
+void take_stiffness(Problem& problem, algebra::StoredMatrix all) {
+  if (problem.blocks.size() == 1) return void(problem.blocks[0].K = std::move(all));
+  for (Block& block : problem.blocks) block.K = SparseMatrix(all.block(block.first, block.first, block.size(), block.size()));
 }
 
 }  // namespace
@@ -146,7 +152,7 @@ std::vector<SparseRows> coarse_functions(const Problem& problem) {
   return all;
 }
 
-Coarser coarser(const Problem& problem) {
+Coarser coarser(const Problem& problem, algebra::StoredMatrix stiffness) {
   const int levels = coarser_meshes(problem);
   if (levels == 0) throw std::logic_error("coarser: no coarser meshes are known");
   Coarser out;
@@ -159,9 +165,11 @@ Coarser coarser(const Problem& problem) {
     for (int r = 0; r < B.rows(); ++r)
       for (SparseRows::InnerIterator it(B, r); it; ++it) entries.emplace_back(r, coarse.block.first + static_cast<int>(it.col()), it.value());
     for (int i = 0; i < coarse.functions->rows(); ++i) both.push_back(same(*coarse.functions, i) >= 0);
+    if (stiffness.size() == 0) coarse.block.K = algebra::congruent(fine.K, *coarse.functions);
     out.problem.blocks.push_back(std::move(coarse.block));
     out.functions.push_back(std::move(coarse.functions));
   }
+  if (stiffness.size() > 0) take_stiffness(out.problem, std::move(stiffness));
   out.problem.B = algebra::from_triplets<SparseRows>(problem.rows(), out.problem.unknowns(), entries);
   out.problem.c = problem.c, out.problem.groups = problem.groups, out.problem.friction = problem.friction;
   out.problem.chains = problem.chains, out.problem.measure = problem.measure, out.problem.row_name = problem.row_name;

@@ -27,7 +27,8 @@ struct Coarser {
   /// by their densities between those kept.
   State prolonged(const State& state) const;
 };
-/// Throws std::logic_error where there are none.
-Coarser coarser(const Problem& problem);
+/// `stiffness`: the lower triangle of PᵀKP of all blocks, P the functions of the next coarser meshes without the empty ones; empty: it is computed. Throws
+/// std::logic_error where there are no coarser meshes.
+Coarser coarser(const Problem& problem, algebra::StoredMatrix stiffness = {});
 
 }  // namespace dotyk::problem

@@ -1,6 +1,9 @@
 #include "solver/active/coarse_start.hpp"
 
+#include <utility>
+
 #include "base/error.hpp"
+#include "base/stopwatch.hpp"
 #include "problem/coarser.hpp"
 #include "solver/core/default_method.hpp"
 #include "solver/core/row_subset.hpp"
@@ -24,18 +27,26 @@ class CoarseRows : public RowSubset {
 
 CoarseStart coarse_start(const Problem& problem, const Pdas& settings, Monitor& monitor) {
   if (problem.rows() == 0 || problem.unknowns() <= kSmall || problem::coarser_meshes(problem) == 0) return {};
-  monitor.phase("solving on coarser meshes");
-  problem::Coarser coarse = problem::coarser(problem);
-  const CoarseRows rows(coarse.problem, coarse.kept);
-  if (rows.count() == 0) return {};
-  const Problem part = rows.restricted();
   CoarseStart start;
+  Stopwatch watch;
+  monitor.phase("ordering");
+  algebra::StoredMatrix stiffness;
+  start.stiffness = std::make_shared<HeldStiffness>(problem, problem::rigid_motions(problem), settings.linear, monitor, &stiffness);
+  start.ordering = watch.lap();
+  monitor.phase("solving on coarser meshes");
+  problem::Coarser coarse = problem::coarser(problem, std::move(stiffness));
+  const CoarseRows rows(coarse.problem, coarse.kept);
+  if (rows.count() == 0) return start;
+  std::vector<algebra::StoredMatrix> K;  // moved: a copy would be as large
+  for (problem::Block& block : coarse.problem.blocks) K.push_back(std::exchange(block.K, {}));
+  Problem part = rows.restricted();
+  for (std::size_t b = 0; b < K.size(); ++b) part.blocks[b].K = std::move(K[b]);
   Result result;
   InnerMonitor inner(monitor);
   try {
     const CoarseStart before = coarse_start(part, settings, inner);
     Pdas begun = settings;
-    begun.from = before.state, begun.coarser = before.stiffness, begun.nested = false, begun.rough = true;
+    begun.from = before.state, begun.stiffness = before.stiffness, begun.nested = false, begun.rough = true;
     begun.tol = std::max(begun.tol, kTolerance);
     start.meshes = before.meshes + 1;
     result = part.unknowns() > kSmall ? solve(part, begun, inner) : solve(part, {}, {}, inner);
@@ -46,12 +57,9 @@ CoarseStart coarse_start(const Problem& problem, const Pdas& settings, Monitor& 
   } catch (const std::exception&) {  // said of the mesh that is given, where it is so there, too
   }
   monitor.check();
-  if (!result.converged) return {};
+  if (!result.converged) return start;
   rows.extend(result);
   start.state = std::make_shared<problem::State>(coarse.prolonged(result.state));
-  if (problem.blocks.size() != 1) return start;
-  start.stiffness = std::make_shared<algebra::SparseMatrix>();
-  start.stiffness->swap(coarse.problem.blocks[0].K);
   return start;
 }
 

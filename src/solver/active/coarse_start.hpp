@@ -11,7 +11,8 @@ namespace dotyk::solver {
 struct CoarseStart {
   std::shared_ptr<const problem::State> state;  ///< of this mesh, as the coarser one's; null where no coarser mesh is known or its problem was not solved
   int meshes = 0;                               ///< solved on
-  std::shared_ptr<algebra::SparseMatrix> stiffness;  ///< of the coarser mesh, where there is one body; null likewise
+  std::shared_ptr<HeldStiffness> stiffness;     ///< of this problem; null where no coarser mesh is known
+  double ordering = 0;                          ///< seconds for that
 };
 CoarseStart coarse_start(const problem::Problem& problem, const Pdas& settings, Monitor& monitor);
 

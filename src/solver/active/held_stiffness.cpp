@@ -37,7 +37,7 @@ bool has_room(const SparseMatrix& matrix, const SparseMatrix& pattern) {
 
 }  // namespace
 
-HeldStiffness::HeldStiffness(const Problem& problem, const RigidMotions& rigid, const MakeSpdSolver& make, Monitor& monitor, const SparseMatrix* coarser)
+HeldStiffness::HeldStiffness(const Problem& problem, const RigidMotions& rigid, const MakeSpdSolver& make, Monitor& monitor, SparseMatrix* coarser)
     : problem_(problem), basis_(problem::row_basis(problem)), unnoticed_(problem::unnoticed_displacements(problem, rigid)), rows_(problem.B * basis_.T),
       fixing_(algebra::fixing_unknowns(unnoticed_)) {
   rows_.prune([](auto, auto, double value) { return std::abs(value) > 1e-14; });
@@ -51,7 +51,7 @@ HeldStiffness::HeldStiffness(const Problem& problem, const RigidMotions& rigid, 
   for (const int unknown : fixing_) change(unknown, unknown, lower().coeff(unknown, unknown));  // carries nothing
   if (rigid.noticed.cols() > 0) spring_rows(problem.row_stiffness());
   std::vector<Entry> first = now();
-  solver_ = make({lower(), numbers(first), problem, basis_, monitor, lower_.size() > 0 ? nullptr : coarser});
+  solver_ = make({lower(), numbers(first), problem, basis_, monitor, coarser});
   told_ = std::move(first);
 }
 

@@ -19,7 +19,7 @@ struct SpdSystem {
   const problem::Problem& problem;
   const problem::RowBasis& basis;
   Monitor& monitor;  ///< outlives the solver
-  const algebra::SparseMatrix* coarser;  ///< what problem::coarser() makes of `lower`, where it is known; else null
+  algebra::SparseMatrix* coarser;  ///< receives PᵀKP of problem::coarser() where the solver makes it; null: nobody asks
 };
 using MakeSpdSolver = std::function<std::unique_ptr<algebra::SpdSolver>(const SpdSystem&)>;
 
@@ -49,9 +49,9 @@ MakeSpdSolver multigrid(Levels levels, double most_iterations = std::numeric_lim
 class HeldStiffness {
  public:
   static constexpr double kTolerance = 1e-12;
-  /// `coarser`: the stiffness of problem::coarser(), where it is known.
+  /// `coarser`: as in SpdSystem.
   HeldStiffness(const problem::Problem& problem, const problem::RigidMotions& rigid, const MakeSpdSolver& make, Monitor& monitor,
-                const algebra::SparseMatrix* coarser = nullptr);
+                algebra::SparseMatrix* coarser = nullptr);
 
   const problem::RowBasis& basis() const { return basis_; }
   /// The lower triangle of TᵀKT; where rows couple unknowns its pattern has places, with zeros if need be.

@@ -132,14 +132,14 @@ void come_to_rest(SetIteration& it) {
 Result solve_nested(const problem::Problem& problem, Pdas settings, Monitor& monitor) {
   Stopwatch watch;
   const CoarseStart coarse = coarse_start(problem, settings, monitor);
-  settings.from = coarse.state, settings.coarser = coarse.stiffness, settings.nested = false;
+  settings.from = coarse.state, settings.stiffness = coarse.stiffness, settings.nested = false;
   const double before = watch.lap();
   Result result = solve(problem, settings, monitor);
-  result.clock.iterate += before;
+  result.clock.ordering += coarse.ordering, result.clock.iterate += before - coarse.ordering;
   if (coarse.meshes > 0) result.reason += text(", begun on ", coarse.meshes, coarse.meshes == 1 ? " coarser mesh" : " coarser meshes");
   settings.max_iterations -= result.iterations;
   if (!coarse.state || result.converged || settings.max_iterations <= 0 || monitor.stop()) return result;
-  settings.from = nullptr, settings.coarser = nullptr;
+  settings.from = nullptr;
   monitor.phase("not converged from the coarser meshes: once more from rest");
   watch.lap();
   try {

@@ -30,9 +30,8 @@ struct Pdas : Settings {
   /// Where coarser meshes are known and neither `start` nor `from` is given, the iteration begins at the solution on the next coarser mesh; see coarse_start().
   /// Where that does not converge, it begins once more from zero displacement, with the iterations that are left.
   bool nested = false;
-  /// The stiffness of problem::coarser(), where there is one body and that is known; spares multigrid the product. The solve
-  /// empties this matrix after its linear solver has been made.
-  std::shared_ptr<algebra::SparseMatrix> coarser;
+  /// Made of this problem before, with `linear` and a monitor that outlives it; null: the solve makes it.
+  std::shared_ptr<HeldStiffness> stiffness;
   /// The result is only the start of another iteration, as on a finer mesh: where active sets repeat it counts as converged, and no rescue is tried.
   bool rough = false;
   /// What solves the linear problem of an iteration in its place, without friction; empty: held_step.

@@ -146,9 +146,11 @@ const problem::CondensedProblem& SetIteration::condensed() {
 HeldStiffness& SetIteration::stiffness() {
   if (stiffness_) return *stiffness_;
   Stopwatch watch;
-  monitor.phase("ordering");
-  stiffness_.emplace(problem, rigid, settings.linear ? settings.linear : factor(settings.ordering), monitor, settings.coarser.get());
-  if (settings.coarser) SparseMatrix().swap(*settings.coarser);
+  stiffness_ = settings.stiffness;
+  if (!stiffness_) {
+    monitor.phase("ordering");
+    stiffness_ = std::make_shared<HeldStiffness>(problem, rigid, settings.linear ? settings.linear : factor(settings.ordering), monitor);
+  }
   result.clock.ordering += watch.lap();
   result.factor_bytes = stiffness_->solver().bytes();
   result.ordering = stiffness_->solver().method();

@@ -59,7 +59,7 @@ class SetIteration {
   /// At rows or at a state that the settings name.
   bool begins_somewhere() const { return !settings.start.empty() || (settings.from && !settings.reduced); }
   bool is_condensed() const { return condensed_ != nullptr; }
-  bool is_analysed() const { return stiffness_.has_value(); }
+  bool is_analysed() const { return stiffness_ != nullptr; }
 
  private:
   void begin_from(const problem::State& from);
@@ -80,7 +80,7 @@ class SetIteration {
   problem::Parts parts_;
   problem::Condenser own_;
   const problem::CondensedProblem* condensed_ = nullptr;
-  std::optional<HeldStiffness> stiffness_;  ///< of the held form, and of the interior point method
+  std::shared_ptr<HeldStiffness> stiffness_;  ///< of the held form, and of the interior point method
   std::vector<int> changed_;
   std::set<std::uint64_t> seen_;
   Stopwatch watch_;
