@@ -21,7 +21,6 @@ class SomeRows {
     return numbers_.data() + static_cast<std::size_t>(place_[row]) * length_;
   }
   const std::vector<int>& rows() const { return rows_; }  ///< those that are used, in the order in which they came
-  std::size_t count() const { return place_.size(); }     ///< those that can be used
   const double* numbers(std::size_t k) const { return numbers_.data() + k * length_; }  ///< of rows()[k]
   void clear() {
     for (const int row : rows_) place_[row] = -1;

@@ -7,31 +7,19 @@
 
 namespace dotyk::multigrid {
 
-Galerkin::Galerkin(const HalfMatrix& fine, Mat interpolation) : size_(BlockSize(interpolation).columns), fine_(fine.block()), own_(fine.nodes()) {
-  const Ranks& ranks = fine.ranks();
+Galerkin::Galerkin(const HalfMatrix& fine, Mat interpolation)
+    : size_(BlockSize(interpolation).columns), fine_(fine.block()), asked_(fine.asked()), own_(fine.nodes()),
+      fine_nodes_(own_ + static_cast<int>(fine.others().size())) {
   PetscInt columns = 0, first = 0, end = 0;
   check(MatGetSize(interpolation, nullptr, &columns));
   check(MatGetOwnershipRangeColumn(interpolation, &first, &end));
   first_own_ = first / size_, own_blocks_ = (end - first) / size_;
-  firsts_ = ranks.gather(first_own_);
-  if (!ranks.alone()) {
-    const std::vector<int>& others = fine.others();
-    below_ = static_cast<int>(std::ranges::lower_bound(others, fine.first_row() / fine_) - others.begin());
-    std::vector<PetscInt> rows;
-    const auto add = [&](int node) {
-      for (int r = 0; r < fine_; ++r) rows.push_back(node * fine_ + r);
-    };
-    for (int o = 0; o < below_; ++o) add(others[o]);
-    for (int node = 0; node < own_; ++node) add(fine.number(node));
-    for (std::size_t o = static_cast<std::size_t>(below_); o < others.size(); ++o) add(others[o]);
-    check(ISCreateGeneral(PETSC_COMM_SELF, static_cast<PetscInt>(rows.size()), rows.data(), PETSC_COPY_VALUES, rows_.put()));
-    check(ISCreateStride(PETSC_COMM_SELF, columns, 0, 1, columns_.put()));
-    const IS some = rows_, all = columns_;
-    check(MatCreateSubMatrices(interpolation, 1, &some, &all, MAT_INITIAL_MATRIX, reached_.put()));
-  }
-  const RowsView P(reached_ ? *reached_ : interpolation);
+  firsts_ = fine.ranks().gather(first_own_);
+  fetch(interpolation);
+  const LocalRows own(interpolation);
+  const ReachedRows P = reached(*own.own);
   const auto for_each = [&](auto&& work) {  // block of each own row, with the place of its first entry
-    for (int i = reached_row(0); i < reached_row(0) + fine.rows(); ++i)
+    for (int i = 0; i < fine.rows(); ++i)
       for (int k = P.starts[i]; k < P.starts[i + 1]; ++k)
         if (k == P.starts[i] || P.columns[k] / size_ != P.columns[k - 1] / size_) work(P.columns[k] / size_, i, k);
   };
@@ -39,16 +27,50 @@ Galerkin::Galerkin(const HalfMatrix& fine, Mat interpolation) : size_(BlockSize(
   support_ = Buckets(blocks, [&](auto&& put) { for_each([&](int block, int row, int) { put(block, row); }); });
   first_ = Buckets(blocks, [&](auto&& put) { for_each([&](int block, int, int place) { put(block, place); }); });
   entries_.assign(static_cast<std::size_t>(fine_ * size_), 0.0);
-  product_ = SomeRows(own_ + static_cast<int>(fine.others().size()), fine_ * size_);
+  product_ = SomeRows(fine_nodes_, fine_ * size_);
   sum_ = SomeRows(blocks, size_ * size_);
 }
 
+Galerkin::ReachedRows Galerkin::reached(const RowsView& own) const {
+  if (asked_.empty()) return {own.starts, own.columns, own.values};
+  return {reached_.starts.data(), reached_.columns.data(), reached_.values.data()};
+}
+
+void Galerkin::fetch(Mat interpolation) {
+  if (asked_.empty()) return;
+  const Ranks ranks = ranks_of(interpolation);
+  const LocalRows P(interpolation);
+  reached_.starts.assign(1, 0), reached_.columns.clear(), reached_.values.clear();
+  for (int i = 0; i < P.count(); ++i) {
+    P.for_each(i, [&](int column, double value) { reached_.columns.push_back(column), reached_.values.push_back(value); });
+    reached_.starts.push_back(static_cast<int>(reached_.columns.size()));
+  }
+  std::vector<std::vector<int>> columns(asked_.size());  // of each row their number, and they
+  std::vector<std::vector<double>> values(asked_.size());
+  for (std::size_t rank = 0; rank < asked_.size(); ++rank)
+    for (const int node : asked_[rank])
+      for (int i = node * fine_; i < (node + 1) * fine_; ++i) {
+        const int begin = reached_.starts[i], end = reached_.starts[i + 1];
+        columns[rank].push_back(end - begin);
+        columns[rank].insert(columns[rank].end(), reached_.columns.begin() + begin, reached_.columns.begin() + end);
+        values[rank].insert(values[rank].end(), reached_.values.begin() + begin, reached_.values.begin() + end);
+      }
+  for (const std::vector<int>& in : ranks.exchange(columns))
+    for (auto at = in.begin(); at != in.end();) {
+      const int count = *at++;
+      reached_.columns.insert(reached_.columns.end(), at, at + count), at += count;
+      reached_.starts.push_back(static_cast<int>(reached_.columns.size()));
+    }
+  for (const std::vector<double>& in : ranks.exchange(values)) reached_.values.insert(reached_.values.end(), in.begin(), in.end());
+}
+
 HalfMatrix Galerkin::pattern(const HalfMatrix& fine, Mat interpolation) const {
-  const RowsView P(reached_ ? *reached_ : interpolation);
+  const LocalRows own_rows(interpolation);
+  const ReachedRows P = reached(*own_rows.own);
   std::vector<int> row;
   Rows parents;  // of each fine node that is reached, as HalfMatrix counts them
-  for (int node = 0; node < own_ + static_cast<int>(fine.others().size()); ++node) {
-    const int begin = P.starts[reached_row(node)], end = P.starts[reached_row(node) + fine_];
+  for (int node = 0; node < fine_nodes_; ++node) {
+    const int begin = P.starts[node * fine_], end = P.starts[(node + 1) * fine_];
     for (int k = begin; k < end; ++k)
       if (k == begin || P.columns[k] / size_ != P.columns[k - 1] / size_) row.push_back(P.columns[k] / size_);
     parents.append_columns(row);
@@ -58,7 +80,7 @@ HalfMatrix Galerkin::pattern(const HalfMatrix& fine, Mat interpolation) const {
   for (int block = 0; block < support_.count(); ++block) {
     row.clear();
     for (int before = -1; const int i : support_[block]) {
-      const int node = i / fine_ - below_;
+      const int node = i / fine_;
       if (std::exchange(before, node) == node) continue;
       fine.each_block(node, [&](int other, const double*, HalfMatrix::Read) {
         for (int k = parents.starts[other]; k < parents.starts[other + 1]; ++k)
@@ -88,8 +110,8 @@ HalfMatrix Galerkin::pattern(const HalfMatrix& fine, Mat interpolation) const {
 
 int Galerkin::rank_of(int block) const { return static_cast<int>(std::ranges::upper_bound(firsts_, block) - firsts_.begin()) - 1; }
 
-void Galerkin::find_multiples(const RowsView& P) {
-  multiples_.assign(product_.count(), 0);
+void Galerkin::find_multiples(const ReachedRows& P) {
+  multiples_.assign(static_cast<std::size_t>(fine_nodes_), 0);
   if (fine_ != size_) return;
   const auto equal = [&](int row, int r) {
     const int begin = P.starts[row], at = P.starts[row + r], count = P.starts[row + 1] - begin;
@@ -100,14 +122,8 @@ void Galerkin::find_multiples(const RowsView& P) {
   };
   for (std::size_t node = 0; node < multiples_.size(); ++node) {
     multiples_[node] = 1;
-    for (int r = 1; r < fine_ && multiples_[node]; ++r) multiples_[node] = equal(reached_row(static_cast<int>(node)), r);
+    for (int r = 1; r < fine_ && multiples_[node]; ++r) multiples_[node] = equal(static_cast<int>(node) * fine_, r);
   }
-}
-
-int Galerkin::reached_row(int node) const {
-  if (node < own_) return (below_ + node) * fine_;
-  const int other = node - own_;
-  return (other < below_ ? other : other + own_) * fine_;
 }
 
 /// Adds A_ki P_iJ to product_ for the nodes k that A couples to a fine node i; P_iJ is in entries_. Most often each row of P_iJ has one entry.
@@ -150,10 +166,10 @@ void Galerkin::add_scaled(int node, double factor, const HalfMatrix& A) {
 
 /// Adds P_kᵀ (A P)_kJ to sum_, for all fine nodes k in product_. Then product_ is empty.
 template <int columns>
-void Galerkin::add_product(const RowsView& P) {
+void Galerkin::add_product(const ReachedRows& P) {
   const int m = columns > 0 ? columns : size_;
   for (std::size_t p = 0; p < product_.rows().size(); ++p) {
-    const int node = product_.rows()[p], first = reached_row(node);
+    const int node = product_.rows()[p], first = node * fine_;
     const double* from = product_.numbers(p);
     if (multiples_[node]) {
       for (int k = P.starts[first]; k < P.starts[first + 1]; ++k) {
@@ -172,18 +188,18 @@ void Galerkin::add_product(const RowsView& P) {
 }
 
 template <int rows_of_node, int columns>
-void Galerkin::compute_block(int block, const HalfMatrix& A, const RowsView& P) {
+void Galerkin::compute_block(int block, const HalfMatrix& A, const ReachedRows& P) {
   const int n = rows_of_node > 0 ? rows_of_node : fine_, m = columns > 0 ? columns : size_;
   const auto rows = support_[block], first = first_[block];
   for (std::size_t s = 0; s < rows.size();) {
-    const int node = rows[s] / n - below_;
+    const int node = rows[s] / n;
     if (multiples_[node]) {
       add_scaled<columns>(node, P.values[first[s]], A);
       s += static_cast<std::size_t>(n);
       continue;
     }
     std::fill(entries_.begin(), entries_.end(), 0.0);
-    for (; s < rows.size() && rows[s] / n - below_ == node; ++s)
+    for (; s < rows.size() && rows[s] / n == node; ++s)
       for (int k = first[s]; k < P.starts[rows[s] + 1] && P.columns[k] / m == block; ++k) entries_[rows[s] % n * m + P.columns[k] - block * m] = P.values[k];
     add_node<rows_of_node, columns>(node, A);
   }
@@ -224,19 +240,14 @@ void Galerkin::add(const Outgoing& in, HalfMatrix& C) const {
   }
 }
 
-void Galerkin::fetch(Mat interpolation) {
-  if (!reached_) return;
-  const IS some = rows_, all = columns_;
-  check(MatCreateSubMatrices(interpolation, 1, &some, &all, MAT_REUSE_MATRIX, reached_.put()));
-}
-
 std::vector<char> Galerkin::compute(const HalfMatrix& fine, Mat interpolation, HalfMatrix& coarse, const std::vector<char>& changed) {
   const Ranks& ranks = coarse.ranks();
   std::vector<char> due(static_cast<std::size_t>(support_.count()), 0), computed(static_cast<std::size_t>(coarse.rows()), 0);
-  for (int b = 0; b < support_.count(); ++b) due[b] = std::ranges::any_of(support_[b], [&](int i) { return changed[i - reached_row(0)]; });
+  for (int b = 0; b < support_.count(); ++b) due[b] = std::ranges::any_of(support_[b], [&](int i) { return changed[i]; });
   if (!ranks.alone()) MPI_Allreduce(MPI_IN_PLACE, due.data(), static_cast<int>(due.size()), MPI_BYTE, MPI_BOR, ranks.comm());
   Outgoing out{std::vector<std::vector<int>>(firsts_.size()), std::vector<std::vector<double>>(firsts_.size())};
-  const RowsView P(reached_ ? *reached_ : interpolation);
+  const LocalRows own_rows(interpolation);
+  const ReachedRows P = reached(*own_rows.own);
   find_multiples(P);
   for (int b = 0; b < support_.count(); ++b) {
     if (!due[b] || (!mine(b) && support_[b].empty())) continue;

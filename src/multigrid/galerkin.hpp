@@ -34,30 +34,34 @@ class Galerkin {
     std::vector<std::vector<double>> numbers;
   };
 
+  struct ReachedRows {
+    const int *starts, *columns;
+    const double* values;
+  };
+
   // Template arguments: rows of a fine node and of a coarse one, as constants for the compiler; 0: fine_, size_ are used.
   template <int rows_of_node, int columns>
-  void compute_block(int block, const HalfMatrix& A, const RowsView& P);
+  void compute_block(int block, const HalfMatrix& A, const ReachedRows& P);
   template <int rows_of_node, int columns>
   void add_node(int node, const HalfMatrix& A);
   template <int columns>
   void add_scaled(int node, double factor, const HalfMatrix& A);
   template <int columns>
-  void add_product(const RowsView& P);
-  void find_multiples(const RowsView& P);
+  void add_product(const ReachedRows& P);
+  void find_multiples(const ReachedRows& P);
   void put_block(int block, HalfMatrix& C);
   void append_block(int block, int rank, Outgoing& out);
   int rank_of(int block) const;
   bool mine(int block) const { return block >= first_own_ && block < first_own_ + own_blocks_; }
   void add(const Outgoing& in, HalfMatrix& C) const;
-  /// The row of P, among those reached, of a fine node's first row; nodes as HalfMatrix counts them.
-  int reached_row(int node) const;
+  /// The rows of P of the fine nodes that are reached.
+  ReachedRows reached(const RowsView& own) const;
 
   int size_ = 1, fine_ = 1;          // rows of a coarse node, of a fine one
-  Owned<IS, ISDestroy> rows_, columns_;
-  Owned<Mat*, destroy_array> reached_;  // rows of P that this rank's rows of A reach; none where there is one rank, as these are P
-  int below_ = 0;                    // of these nodes, how many come before the rank's own
-  int own_ = 0;                      // fine nodes of this rank
-  Buckets support_;                  // coarse node → the own rows of P with entries in its columns, as rows of reached_
+  std::vector<std::vector<int>> asked_;  // by rank the own fine nodes that its rows of A reach
+  Rows reached_;                     // rows of P that this rank's rows of A reach, of nodes as HalfMatrix counts them; none where there is one rank, as these are P
+  int own_ = 0, fine_nodes_ = 0;     // fine nodes of this rank; those that are reached
+  Buckets support_;                  // coarse node → the own rows of P with entries in its columns
   Buckets first_;                    // beside support_: the first of these entries
   std::vector<int> firsts_;          // by rank its first coarse node
   int first_own_ = 0, own_blocks_ = 0;  // coarse nodes of this rank

@@ -38,8 +38,12 @@ struct HalfRows {
     /// The number at a row and a column of the block.
     double& at(int block, int r, int c) const { return numbers[transposed ? c * block + r : r * block + c]; }
   };
-  Place place(int row, int column);
+  Place place(int row, int column);  ///< of two nodes that others have: none
 };
+
+/// Zeros, with room for the pairs of coupled nodes: pairs(visit) calls visit(node, node), in any order and some of them several times. It is called twice.
+template <class Pairs>
+HalfRows room_for(int block, int first, int nodes, const Pairs& pairs);
 
 /// each(visit) calls visit(row, column, number) once for each pair of entries (i, j), (j, i) that has one of these rows or columns, in any order. It is called
 /// three times.
@@ -114,6 +118,7 @@ class HalfMatrix {
         add(node * n + r, sum);
       }
   }
+  const std::vector<std::vector<int>>& asked() const { return asked_; }  ///< by rank the own nodes that are among its others()
   const std::vector<int>& border() const { return border_; }  ///< own nodes that are coupled to others(), ascending
 
   /// Some of the own rows, counted from the rank's first, as they are in A.
@@ -144,27 +149,31 @@ class HalfMatrix {
   Room room_;
 };
 
-template <class Each>
-HalfRows half_rows(int block, int first, int nodes, const Each& each) {
+template <class Pairs>
+HalfRows room_for(int block, int first, int nodes, const Pairs& pairs) {
   std::vector<int> last(static_cast<std::size_t>(nodes), -1);  // neighbour of each node: most repeats of a pair follow one another
   const auto is_own = [&](int node) { return node >= first && node < first + nodes; };
-  const Buckets pairs(nodes, [&](auto&& put) {
+  const Buckets coupled(nodes, [&](auto&& put) {
     std::ranges::fill(last, -1);
-    each([&](int i, int j, double) {
-      const int a = i / block, b = j / block;
+    pairs([&](int a, int b) {
       if (a == b) return;
       const int at = is_own(a) && (!is_own(b) || b < a) ? a : b, other = at == a ? b : a;
       if (!is_own(at) || last[at - first] == other) return;
       last[at - first] = other, put(at - first, other);
     });
   });
-  Rows coupled;
+  Rows rows;
   std::vector<int> row;
   for (int node = 0; node < nodes; ++node) {
-    row.assign(pairs[node].begin(), pairs[node].end());
-    coupled.append_columns(row);
+    row.assign(coupled[node].begin(), coupled[node].end());
+    rows.append_columns(row);
   }
-  HalfRows rows(block, first, coupled);
+  return {block, first, rows};
+}
+
+template <class Each>
+HalfRows half_rows(int block, int first, int nodes, const Each& each) {
+  HalfRows rows = room_for(block, first, nodes, [&](auto&& visit) { each([&](int i, int j, double) { visit(i / block, j / block); }); });
   HalfRows::Place last_place;
   each([&](int i, int j, double number) {
     const int a = i / block, b = j / block, r = i % block, c = j % block;

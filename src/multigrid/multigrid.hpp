@@ -31,7 +31,7 @@ struct Matrix {
   int dimension = 3;
   /// Receives the matrix of the next coarser mesh: the lower triangle of PᵀKP, where K is the matrix of displacements, `lower` or `displaced`, without
   /// `changed`, and P the first of `coarse` without its empty columns. Null: nobody asks.
-  algebra::SparseMatrix* coarser = nullptr;
+  algebra::StoredMatrix* coarser = nullptr;
   /// Other numbers of some entries, as for set(), with which `lower` is positive definite; null: none.
   const algebra::Triplets* changed = nullptr;
   /// solve() gives up when its rate of convergence foretells that twelve digits will take so many more.

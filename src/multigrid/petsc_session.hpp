@@ -35,9 +35,6 @@ class Owned {
   Object object_ = nullptr;
 };
 
-/// Destroys an array of one matrix, as MatCreateSubMatrices() makes it.
-inline PetscErrorCode destroy_array(Mat** matrices) { return *matrices ? MatDestroySubMatrices(1, matrices) : 0; }
-
 /// The numbers of a vector that this process has, for as long as this lives.
 template <class Number, PetscErrorCode (*get)(Vec, Number**), PetscErrorCode (*restore)(Vec, Number**)>
 class NumbersOf {

@@ -123,16 +123,18 @@ bool aggregates_follow(double coarsest_unknowns, double finest_unknowns) { retur
 Pieces::Pieces(const Matrix& matrix, const Numbering& numbering) : matrix_(matrix), numbering_(numbering) {
   if (!matrix.lower.isCompressed() || static_cast<std::size_t>(matrix.lower.rows()) != matrix.node.size())
     throw std::runtime_error("multigrid: the matrix is not compressed, or nodes are not given for each unknown");
-  finest_ = source(matrix.lower, numbering.slot(), numbering.idle());
+  finest_ = source(matrix.lower);
   const int meshes = matrix.coarse ? static_cast<int>(matrix.coarse->size()) : 0;
   if (meshes == 0 || aggregates_follow(numbering.first(meshes).back(), numbering.first(0).back())) near_kernel_ = matrix.near_kernel();
   if (!matrix.displaced) return;
   if (matrix.coarse) mean_diagonal(*matrix.displaced);
-  else displaced_ = source(*matrix.displaced, numbering.slot(), numbering.idle());
+  else displaced_ = source(*matrix.displaced);
 }
 
-Pieces::Source Pieces::source(const algebra::SparseMatrix& lower, std::vector<int> slot, std::vector<int> idle) {
-  return {&lower, std::move(slot), std::move(idle), mean_diagonal(lower)};
+Pieces::Source Pieces::source(const algebra::SparseMatrix& lower) const {
+  std::vector<int> node = numbering_.slot();
+  for (int& row : node) row /= numbering_.block();
+  return {&lower, std::move(node), mean_diagonal(lower)};
 }
 
 namespace {
@@ -175,7 +177,7 @@ void sort_columns(algebra::SparseMatrix& matrix) {
 
 }  // namespace
 
-algebra::SparseMatrix Pieces::coarser(const std::vector<HalfRows>& of_ranks) const {
+algebra::StoredMatrix Pieces::coarser(const std::vector<HalfRows>& of_ranks) const {
   const algebra::SparseRows& functions = matrix_.coarse->front();
   std::vector<char> used(static_cast<std::size_t>(functions.cols()), 0);
   for (Eigen::Index k = 0; k < functions.nonZeros(); ++k) used[functions.innerIndexPtr()[k]] = 1;
@@ -183,10 +185,17 @@ algebra::SparseMatrix Pieces::coarser(const std::vector<HalfRows>& of_ranks) con
   int count = 0;
   for (std::size_t k = 0; k < used.size(); ++k)
     if (used[k]) place[numbering_.functions(1)[k]] = count++;
-  const auto each = [&](auto&& visit) {
-    for (const HalfRows& rows : of_ranks) each_lower(rows, place, visit);
+  const auto each = [&](auto&& visit) {  // each thread has columns of its own
+    const int threads = threads_for(count, 10'000);
+    parallel_ranges(count, threads, [&](int, int first, int end) {
+      for (const HalfRows& rows : of_ranks)
+        each_lower(rows, place, [&](int row, int column, double number) {
+          if (column >= first && column < end) visit(row, column, number);
+        });
+    });
   };
-  algebra::SparseMatrix lower(count, count);
+  algebra::StoredMatrix lower;
+  lower.resize(count, count);
   int* starts = lower.outerIndexPtr();
   each([&](int, int column, double) { ++starts[column + 1]; });
   std::partial_sum(starts, starts + count + 1, starts);
@@ -200,20 +209,62 @@ algebra::SparseMatrix Pieces::coarser(const std::vector<HalfRows>& of_ranks) con
   return lower;
 }
 
-HalfRows Pieces::rows_of(int rank, const Source& source, int block) const {
+namespace {
+
+/// Are the rows of a column those of the one before, but for the first? Components of a node mostly are coupled alike.
+bool as_before(const algebra::SparseMatrix& lower, int j) {
+  const int *begin = lower.outerIndexPtr() + j, *rows = lower.innerIndexPtr();
+  return begin[0] - begin[-1] == begin[1] - begin[0] + 1 && std::equal(rows + begin[0], rows + begin[1], rows + begin[-1] + 1);
+}
+
+}  // namespace
+
+HalfRows Pieces::rows_of(int rank, const Source& source) const {
   if (!source.lower) return {};
   const algebra::SparseMatrix& lower = *source.lower;
-  const std::vector<int>& slot = source.slot;
-  const Range range = range_of(rank, numbering_, 0);
-  return half_rows(block, range.first / block, range.count() / block, [&](auto&& visit) {
-    for (int j = 0; j < lower.cols(); ++j) {
-      const int column = slot[j];
-      for (int k = lower.outerIndexPtr()[j]; k < lower.outerIndexPtr()[j + 1]; ++k)
-        if (const int row = slot[lower.innerIndexPtr()[k]]; range.has(row) || range.has(column)) visit(row, column, lower.valuePtr()[k]);
+  const std::vector<int>&slot = numbering_.slot(), &node = source.node;
+  const int block = numbering_.block(), first = numbering_.first(0)[rank] / block, count = numbering_.first(0)[rank + 1] / block - first;
+  const auto is_own = [&](int node) { return node >= first && node < first + count; };
+  std::vector<char> met(static_cast<std::size_t>(lower.cols()), 0);  // columns of nodes with an entry that is this rank's, by their first column
+  HalfRows rows = room_for(block, first, count, [&](auto&& visit) {
+    for (int j = 0, begin = 0; j < lower.cols(); ++j) {
+      if (node[j] != node[begin]) begin = j;
+      if (j > begin && as_before(lower, j)) continue;
+      const bool own = is_own(node[j]);
+      bool meets = own;
+      for (int k = lower.outerIndexPtr()[j]; k < lower.outerIndexPtr()[j + 1]; ++k) {
+        const int row = node[lower.innerIndexPtr()[k]];
+        if (own || is_own(row)) visit(row, node[j]), meets = true;
+      }
+      if (meets) met[begin] = 1;
     }
-    for (const int i : source.idle)
-      if (range.has(i)) visit(i, i, source.mean);
   });
+  std::vector<HalfRows::Place> places;  // of a node's columns
+  for (int begin = 0, end; begin < lower.cols(); begin = end) {
+    const int column = node[begin];
+    for (end = begin + 1; end < lower.cols() && node[end] == column;) ++end;
+    if (!met[begin]) continue;
+    places.clear();
+    for (int j = begin; j < end; ++j) {
+      const int c = slot[j] - column * block;
+      std::size_t at = 0;
+      for (int k = lower.outerIndexPtr()[j], row; k < lower.outerIndexPtr()[j + 1];) {
+        row = node[lower.innerIndexPtr()[k]];
+        while (at < places.size() && places[at].row != row) ++at;
+        if (at == places.size()) places.push_back(rows.place(row, column));
+        const HalfRows::Place place = places[at];
+        for (; k < lower.outerIndexPtr()[j + 1] && node[lower.innerIndexPtr()[k]] == row; ++k) {
+          if (!place.numbers) continue;
+          const int r = slot[lower.innerIndexPtr()[k]] - row * block;
+          place.at(block, r, c) = lower.valuePtr()[k];
+          if (row == column) place.at(block, c, r) = lower.valuePtr()[k];
+        }
+      }
+    }
+  }
+  for (const int i : numbering_.idle())
+    if (is_own(i / block)) rows.place(i / block, i / block).at(block, i % block, i % block) = source.mean;
+  return rows;
 }
 
 Piece Pieces::of(int rank) const {
@@ -227,7 +278,7 @@ Piece Pieces::of(int rank) const {
   if (matrix_.unknowns) p.unknowns = some_rows(*matrix_.unknowns, numbering_.slot(), numbering_.slot(), range_of(rank, numbering_, 0), numbering_.idle());
   p.modes = some_modes(near_kernel_, meshes > 0 ? numbering_.functions(meshes) : numbering_.slot(), range_of(rank, numbering_, meshes));
   p.tells_coarser = matrix_.coarser && meshes > 0;
-  p.matrix = rows_of(rank, finest_, p.block), p.displaced = rows_of(rank, displaced_, p.block);
+  p.matrix = rows_of(rank, finest_), p.displaced = rows_of(rank, displaced_);
   return p;
 }
 

@@ -34,17 +34,17 @@ class Pieces {
   Pieces(const Matrix& matrix, const Numbering& numbering);
   Piece of(int rank) const;
   /// The lower triangle of the matrix of the next coarser mesh, as Matrix::coarser says, from the rows of all ranks.
-  algebra::SparseMatrix coarser(const std::vector<HalfRows>& of_ranks) const;
+  algebra::StoredMatrix coarser(const std::vector<HalfRows>& of_ranks) const;
 
  private:
   /// A lower triangle of the finest level.
   struct Source {
     const algebra::SparseMatrix* lower = nullptr;
-    std::vector<int> slot, idle;  ///< number of each row of the triangle; numbers of the rows without unknown
+    std::vector<int> node;        ///< of each row of the triangle, by the numbers of Numbering
     double mean = 0;              ///< of the diagonal
   };
-  static Source source(const algebra::SparseMatrix& lower, std::vector<int> slot, std::vector<int> idle);
-  HalfRows rows_of(int rank, const Source& source, int block) const;
+  Source source(const algebra::SparseMatrix& lower) const;
+  HalfRows rows_of(int rank, const Source& source) const;
 
   const Matrix& matrix_;
   const Numbering& numbering_;

@@ -35,11 +35,13 @@ std::vector<int> places(const SparseRows& functions) {
 }
 
 /// The columns that have a place alone: all that have entries.
-SparseRows with_columns(const SparseRows& functions, const std::vector<int>& place) {
-  std::vector<int> columns(functions.innerIndexPtr(), functions.innerIndexPtr() + functions.nonZeros());
-  for (int& column : columns) column = place[column];
-  const auto count = std::count_if(place.begin(), place.end(), [](int p) { return p >= 0; });
-  return Eigen::Map<const SparseRows>(functions.rows(), count, functions.nonZeros(), functions.outerIndexPtr(), columns.data(), functions.valuePtr());
+std::shared_ptr<const SparseRows> with_columns(const SparseRows& functions, const std::vector<int>& place) {
+  const auto some = std::make_shared<SparseRows>(functions.rows(), std::ranges::count_if(place, [](int p) { return p >= 0; }));
+  some->resizeNonZeros(functions.nonZeros());
+  std::copy_n(functions.outerIndexPtr(), functions.rows() + 1, some->outerIndexPtr());
+  std::copy_n(functions.valuePtr(), functions.nonZeros(), some->valuePtr());
+  std::transform(functions.innerIndexPtr(), functions.innerIndexPtr() + functions.nonZeros(), some->innerIndexPtr(), [&](int column) { return place[column]; });
+  return some;
 }
 
 SparseRows with_rows(const SparseRows& functions, const std::vector<int>& place) {
@@ -58,7 +60,7 @@ struct CoarserBlock {
 CoarserBlock coarser(const Block& fine, int levels) {
   std::vector<SparseRows> all = fine.coarse.functions(levels);
   const std::vector<int> place = places(all[0]);
-  CoarserBlock out{{}, std::make_shared<const SparseRows>(with_columns(all[0], place))};
+  CoarserBlock out{{}, with_columns(all[0], place)};
   const SparseRows& functions = *out.functions;
   if (all.size() > 1) all[1] = with_rows(all[1], place);
   Block& block = out.block;

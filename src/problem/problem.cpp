@@ -43,6 +43,12 @@ std::vector<const RowGroup*> Problem::group_of_rows() const {
 
 namespace {
 
+/// K_jj: a lower column's first entry, where it has one.
+double diagonal(const Block& block, int j) {
+  const SparseMatrix::InnerIterator first(block.K, j);
+  return first && first.row() == j ? first.value() : 0;
+}
+
 /// Σ_j B_rj² term(K_jj), row by row.
 template <class Term>
 Vector over_diagonal(const Problem& problem, const Term& term) {
@@ -50,8 +56,7 @@ Vector over_diagonal(const Problem& problem, const Term& term) {
   for (int r = 0; r < problem.rows(); ++r)
     for (SparseRows::InnerIterator it(problem.B, r); it; ++it) {
       const Block& block = problem.blocks[problem.block_of(it.col())];
-      const double diagonal = block.K.valuePtr()[block.K.outerIndexPtr()[it.col() - block.first]];  // a lower column's first entry
-      sum[r] += it.value() * it.value() * term(diagonal);
+      sum[r] += it.value() * it.value() * term(diagonal(block, static_cast<int>(it.col()) - block.first));
     }
   return sum;
 }
@@ -102,8 +107,7 @@ void require_moderate(const Problem& problem, double most_force) {
   double stiffness = 0, force = 0, gap = 0;
   const auto grow = [](double& greatest, double value) { greatest = std::isnan(value) ? INFINITY : std::max(greatest, std::abs(value)); };
   for (const Block& block : problem.blocks) {
-    const Vector diagonal = block.K.diagonal();
-    for (const double k : diagonal) grow(stiffness, k);
+    for (int j = 0; j < block.size(); ++j) grow(stiffness, diagonal(block, j));
     for (const double f : block.f) grow(force, f);
   }
   for (const double c : problem.c)

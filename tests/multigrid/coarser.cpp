@@ -56,7 +56,7 @@ TEST_CASE("the matrix of the next coarser mesh is told") {
   multigrid::Matrix matrix{cube.lower, cube.node, [&] { return motions; }};
   matrix.coarse = &coarse;
   const auto silent = multigrid::make_solver(matrix, monitor);
-  algebra::SparseMatrix coarser;
+  algebra::StoredMatrix coarser;
   matrix.coarser = &coarser;
   const algebra::Triplets changed{{0, 0, 2 * cube.lower.coeff(0, 0)}};
   for (const algebra::Triplets* other : {static_cast<const algebra::Triplets*>(nullptr), &changed}) {  // of which it knows nothing

@@ -6,6 +6,7 @@
 
 #include "algebra/congruent.hpp"
 #include "algebra/dense/generalised_inverse.hpp"
+#include "algebra/entries_of.hpp"
 #include "base/text.hpp"
 #include "multigrid/multigrid.hpp"
 #include "problem/coarser.hpp"
@@ -37,7 +38,7 @@ bool has_room(const SparseMatrix& matrix, const SparseMatrix& pattern) {
 
 }  // namespace
 
-HeldStiffness::HeldStiffness(const Problem& problem, const RigidMotions& rigid, const MakeSpdSolver& make, Monitor& monitor, SparseMatrix* coarser)
+HeldStiffness::HeldStiffness(const Problem& problem, const RigidMotions& rigid, const MakeSpdSolver& make, Monitor& monitor, algebra::StoredMatrix* coarser)
     : problem_(problem), basis_(problem::row_basis(problem)), unnoticed_(problem::unnoticed_displacements(problem, rigid)), rows_(problem.B * basis_.T),
       fixing_(algebra::fixing_unknowns(unnoticed_)) {
   rows_.prune([](auto, auto, double value) { return std::abs(value) > 1e-14; });
@@ -56,7 +57,8 @@ HeldStiffness::HeldStiffness(const Problem& problem, const RigidMotions& rigid, 
 }
 
 void HeldStiffness::assemble() {
-  std::vector<Eigen::Triplet<double>> entries;  // of rows, and of the diagonal: zeros in the pattern
+  const auto has_diagonal = [](const SparseMatrix& K, int j) { return K.outerIndexPtr()[j] < K.outerIndexPtr()[j + 1] && K.innerIndexPtr()[K.outerIndexPtr()[j]] == j; };
+  std::vector<Eigen::Triplet<double>> entries;  // of rows, and of the diagonal where it lacks: zeros in the pattern
   for (int r = 0; r < problem_.rows(); ++r)
     for (SparseRows::InnerIterator i(rows_, r); i; ++i)
       for (SparseRows::InnerIterator j(rows_, r); j && j.col() <= i.col(); ++j) entries.emplace_back(static_cast<int>(i.col()), static_cast<int>(j.col()), 0.0);
@@ -64,7 +66,9 @@ void HeldStiffness::assemble() {
     const int a = basis_.unknown[first], b = basis_.unknown[first + group.components - 1];
     if (a >= 0 && b >= 0) entries.emplace_back(std::max(a, b), std::min(a, b), 0.0);
   }
-  for (int i = 0; i < problem_.unknowns(); ++i) entries.emplace_back(i, i, 0.0);
+  for (const problem::Block& block : problem_.blocks)
+    for (int j = 0; j < block.size(); ++j)
+      if (!has_diagonal(block.K, j)) entries.emplace_back(block.first + j, block.first + j, 0.0);
   const SparseMatrix zeros = algebra::from_triplets(problem_.unknowns(), problem_.unknowns(), entries);
   const bool alone = problem_.blocks.size() == 1;
   if (alone && basis_.trivial() && has_room(problem_.blocks.front().K, zeros)) return;
@@ -88,9 +92,7 @@ void HeldStiffness::watch(const std::vector<char>& held) {
     if (held[i] && !watched_[i]) watched_[i] = 1, known = false;
   if (known) return;
   of_watched_.clear();
-  for (int j = 0; j < lower().cols(); ++j)
-    for (int k = lower().outerIndexPtr()[j]; k < lower().outerIndexPtr()[j + 1]; ++k)
-      if (const int i = lower().innerIndexPtr()[k]; watched_[i] || watched_[j]) of_watched_.push_back({k, i, j});
+  algebra::each_entry_of(lower(), watched_, [&](int place, int row, int column) { of_watched_.push_back({place, row, column}); });
 }
 
 void HeldStiffness::spring_rows(const Vector& spring) {

@@ -19,7 +19,7 @@ struct SpdSystem {
   const problem::Problem& problem;
   const problem::RowBasis& basis;
   Monitor& monitor;  ///< outlives the solver
-  algebra::SparseMatrix* coarser;  ///< receives PᵀKP of problem::coarser() where the solver makes it; null: nobody asks
+  algebra::StoredMatrix* coarser;  ///< receives PᵀKP of problem::coarser() where the solver makes it; null: nobody asks
 };
 using MakeSpdSolver = std::function<std::unique_ptr<algebra::SpdSolver>(const SpdSystem&)>;
 
@@ -51,7 +51,7 @@ class HeldStiffness {
   static constexpr double kTolerance = 1e-12;
   /// `coarser`: as in SpdSystem.
   HeldStiffness(const problem::Problem& problem, const problem::RigidMotions& rigid, const MakeSpdSolver& make, Monitor& monitor,
-                algebra::SparseMatrix* coarser = nullptr);
+                algebra::StoredMatrix* coarser = nullptr);
 
   const problem::RowBasis& basis() const { return basis_; }
   /// The lower triangle of TᵀKT; where rows couple unknowns its pattern has places, with zeros if need be.

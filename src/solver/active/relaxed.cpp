@@ -2,6 +2,9 @@
 
 #include <array>
 #include <cmath>
+#include <utility>
+
+#include "algebra/entries_of.hpp"
 
 namespace dotyk::solver {
 namespace {
@@ -30,19 +33,17 @@ std::vector<int> bearing(const Problem& problem, const Vector& lambda) {
 /// The unknowns of rows, and of neighbours.
 std::vector<int> unknowns_near(const std::vector<int>& rows, const HeldStiffness& stiffness) {
   const SparseMatrix& lower = stiffness.lower();
-  std::vector<char> layer(static_cast<std::size_t>(lower.cols()), 0);  // 1: the first; 0: beyond
+  std::vector<char> near(static_cast<std::size_t>(lower.cols()), 0);
   for (const int r : rows)
-    if (const int own = stiffness.basis().unknown[r]; own >= 0) layer[own] = 1;
-  for (char k = 1; k <= kLayers; ++k)
-    for (int j = 0; j < lower.cols(); ++j)
-      for (SparseMatrix::InnerIterator it(lower, j); it; ++it) {
-        const auto i = it.row();
-        if (layer[i] == k && layer[j] == 0) layer[j] = static_cast<char>(k + 1);
-        if (layer[j] == k && layer[i] == 0) layer[i] = static_cast<char>(k + 1);
-      }
+    if (const int own = stiffness.basis().unknown[r]; own >= 0) near[own] = 1;
+  for (int k = 0; k < kLayers; ++k) {
+    std::vector<char> wider = near;
+    algebra::each_entry_of(lower, near, [&](int, int row, int column) { wider[row] = wider[column] = 1; });
+    near = std::move(wider);
+  }
   std::vector<int> unknowns;
   for (int i = 0; i < lower.cols(); ++i)
-    if (layer[i] > 0) unknowns.push_back(i);
+    if (near[i]) unknowns.push_back(i);
   return unknowns;
 }
 

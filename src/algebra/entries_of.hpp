@@ -1,0 +1,25 @@
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "algebra/types.hpp"
+
+namespace dotyk::algebra {
+
+/// Calls visit(place among the numbers, row, column) for the entries of a lower triangle in rows or columns of some unknowns, flagged by `of`, in their order.
+/// Columns that end above the first of these unknowns, or begin below the last, are not read: mostly unknowns near each other have numbers near each other.
+template <class Visit>
+void each_entry_of(const SparseMatrix& lower, const std::vector<char>& of, const Visit& visit) {
+  const auto first = static_cast<int>(std::ranges::find(of, 1) - of.begin());
+  int last = static_cast<int>(of.size()) - 1;
+  while (last >= 0 && !of[last]) --last;
+  for (int j = 0; j <= last; ++j) {
+    const int begin = lower.outerIndexPtr()[j], end = lower.outerIndexPtr()[j + 1];
+    if (begin == end || lower.innerIndexPtr()[end - 1] < first) continue;
+    for (int k = begin; k < end; ++k)
+      if (const int i = lower.innerIndexPtr()[k]; of[i] || of[j]) visit(k, i, j);
+  }
+}
+
+}  // namespace dotyk::algebra
