@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
+#include <utility>
 
 #include "base/buckets.hpp"
 
@@ -13,9 +14,11 @@ namespace dotyk::multigrid {
 
 namespace {
 
-/// The graph's vertices shared out among `parts` with few edges between them. `visit(edge)` calls edge(a, b) as often as the edge weighs.
+/// The graph's vertices shared out among `parts` of about the same weight with few edges between them. `weight`: of each vertex; `visit(edge)` calls
+/// edge(a, b) as often as the edge weighs.
 template <class Visit>
-std::vector<int> share_out(int vertices, int parts, const Visit& visit) {
+std::vector<int> share_out(std::vector<idx_t> weight, int parts, const Visit& visit) {
+  const auto vertices = static_cast<int>(weight.size());
   const Buckets met(vertices, [&](auto&& put) {
     visit([&](int a, int b) {
       if (a != b) put(a, b), put(b, a);
@@ -35,7 +38,7 @@ std::vector<int> share_out(int vertices, int parts, const Visit& visit) {
   METIS_SetDefaultOptions(options);
   options[METIS_OPTION_SEED] = 1;
   std::vector<idx_t> part(static_cast<std::size_t>(vertices));
-  const int status = METIS_PartGraphRecursive(&count, &constraints, starts.data(), neighbours.data(), nullptr, nullptr, weights.data(), &wanted, nullptr,
+  const int status = METIS_PartGraphRecursive(&count, &constraints, starts.data(), neighbours.data(), weight.data(), nullptr, weights.data(), &wanted, nullptr,
                                               nullptr, options, &cut, part.data());
   if (status != METIS_OK) throw std::runtime_error("METIS could not share out the unknowns");
   return {part.begin(), part.end()};
@@ -56,15 +59,21 @@ class Sharing {
  public:
   /// `first`: unknown of each node, and the number of all.
   Sharing(const Matrix& matrix, const std::vector<int>& first, int ranks) : matrix_(matrix), first_(first), ranks_(ranks) {
-    constexpr int kEnough = 100;  // nodes for each rank, so that shares are like
+    constexpr int kEnough = 1000;  // nodes for each rank, so that shares are alike
     const int meshes = matrix.coarse ? static_cast<int>(matrix.coarse->size()) : 0;
     for (int l = 0; l <= meshes; ++l) of_.emplace_back(static_cast<std::size_t>(nodes(l)), 0);
     if (ranks == 1) return;
     int level = meshes;
     while (level > 0 && nodes(level) < kEnough * ranks) --level;
     std::vector<std::vector<int>> parents;
-    for (int l = 0; l < level; ++l) parents.push_back(parents_of(l));
-    of_[level] = share_out(nodes(level), ranks_, [&](auto&& edge) {
+    std::vector<idx_t> weight(static_cast<std::size_t>(nodes(0)), 1);  // of a node the finest ones that follow it
+    for (int l = 0; l < level; ++l) {
+      parents.push_back(parents_of(l));
+      std::vector<idx_t> sum(static_cast<std::size_t>(nodes(l + 1)), 0);
+      for (int node = 0; node < nodes(l); ++node) sum[parents[l][node]] += weight[node];
+      weight = std::move(sum);
+    }
+    of_[level] = share_out(std::move(weight), ranks_, [&](auto&& edge) {
       level > 0 ? functions_meet(level, edge) : matrix_meets(edge);
       rows_join(parents, edge);
     });
