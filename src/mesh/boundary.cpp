@@ -5,10 +5,12 @@ namespace dotyk::mesh {
 std::vector<int> facet_neighbours(const Mesh& mesh) {
   const FacetTable table(mesh);
   std::vector<int> neighbour(table.count(), -1);
-  for (int f = 0; f < table.count(); ++f)
-    table.with(table.corners(f), [&](int g) {
-      if (g != f && neighbour[f] < 0) neighbour[f] = g / mesh.topology().facets;
-    });
+  parallel_ranges(table.count(), threads_for(mesh.cell_count(), FacetTable::kFewCells), [&](int, int first, int end) {
+    for (int f = first; f < end; ++f)
+      table.with(table.corners(f), [&](int g) {
+        if (g != f && neighbour[f] < 0) neighbour[f] = g / mesh.topology().facets;
+      });
+  });
   return neighbour;
 }
 

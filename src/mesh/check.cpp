@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "base/parallel.hpp"
 #include "base/text.hpp"
 #include "mesh/mesh.hpp"
 
@@ -50,6 +51,22 @@ void refuse_stray_nodes(const Mesh& mesh, const std::string& what) {
       throw InputError(text(what, ": node ", node + 1, " at ", point_text(mesh.node(node), mesh.dimension()), " belongs to no cell; remove it"));
 }
 
+/// Throws where a cell is flat, inverted, or of a size beyond the range of numbers.
+void check_cell(const Mesh& mesh, int c, const std::string& what) {
+  const double scale = std::pow(edge_scale(mesh, c), mesh.dimension());
+  const double jacobian = least_jacobian(mesh, c);
+  if (!std::isfinite(jacobian) || !std::isfinite(scale) || scale < std::numeric_limits<double>::min())
+    throw InputError(text(what, ": cell ", c + 1, " is so ", std::isfinite(jacobian) && scale < 1 ? "small" : "large", " that its ", mesh.dimension() == 2 ? "area" : "volume",
+                          " is beyond the range of numbers; choose another unit of length"));
+  // A cell flatter than 1e-12 of its size has no digits left in its gradients.
+  if (jacobian > 1e-12 * scale) return;
+  const std::string cell = text(what, ": cell ", c + 1, " (a ", mesh.topology().shape, " near ", point_text(mesh.cell_centre(c).data(), mesh.dimension()), ")");
+  if (jacobian < -1e-12 * scale)
+    throw InputError(text(cell, " is inverted; its least Jacobian is ", jacobian, ", it must be positive: ", advice(mesh, c)));
+  throw InputError(text(cell, " is flat: its least Jacobian, ", jacobian, ", is ", jacobian / scale, " of its extent ", mesh.dimension() == 2 ? "squared" : "cubed",
+                        ", and must be more than 1e-12 of that: ", jacobian > 0 ? "take cells that are less slender" : advice(mesh, c)));
+}
+
 }  // namespace
 
 void check(const Mesh& mesh, const std::string& what) {
@@ -57,20 +74,10 @@ void check(const Mesh& mesh, const std::string& what) {
     for (int k = 0; k < mesh.dimension(); ++k)
       if (!std::isfinite(mesh.node(i)[k]))
         throw InputError(text(what, ": node ", i + 1, " has a coordinate that is not finite"));
-  for (int c = 0; c < mesh.cell_count(); ++c) {
-    const double scale = std::pow(edge_scale(mesh, c), mesh.dimension());
-    const double jacobian = least_jacobian(mesh, c);
-    if (!std::isfinite(jacobian) || !std::isfinite(scale) || scale < std::numeric_limits<double>::min())
-      throw InputError(text(what, ": cell ", c + 1, " is so ", std::isfinite(jacobian) && scale < 1 ? "small" : "large", " that its ", mesh.dimension() == 2 ? "area" : "volume",
-                            " is beyond the range of numbers; choose another unit of length"));
-    // A cell flatter than 1e-12 of its size has no digits left in its gradients.
-    if (jacobian > 1e-12 * scale) continue;
-    const std::string cell = text(what, ": cell ", c + 1, " (a ", mesh.topology().shape, " near ", point_text(mesh.cell_centre(c).data(), mesh.dimension()), ")");
-    if (jacobian < -1e-12 * scale)
-      throw InputError(text(cell, " is inverted; its least Jacobian is ", jacobian, ", it must be positive: ", advice(mesh, c)));
-    throw InputError(text(cell, " is flat: its least Jacobian, ", jacobian, ", is ", jacobian / scale, " of its extent ", mesh.dimension() == 2 ? "squared" : "cubed",
-                          ", and must be more than 1e-12 of that: ", jacobian > 0 ? "take cells that are less slender" : advice(mesh, c)));
-  }
+  constexpr int kFew = 50'000;  // cells, for a thread
+  parallel_ranges(mesh.cell_count(), threads_for(mesh.cell_count(), kFew), [&](int, int first, int end) {
+    for (int c = first; c < end; ++c) check_cell(mesh, c, what);
+  });
   refuse_repeated_cells(mesh, what);
   refuse_stray_nodes(mesh, what);
 }

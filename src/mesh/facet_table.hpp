@@ -5,6 +5,7 @@
 #include <climits>
 #include <vector>
 
+#include "base/parallel.hpp"
 #include "mesh/mesh.hpp"
 
 namespace dotyk::mesh {
@@ -13,16 +14,19 @@ namespace dotyk::mesh {
 class FacetTable {
  public:
   using Corners = std::array<int, 4>;  ///< ascending; INT_MAX behind them
+  static constexpr int kFewCells = 50'000;  ///< not worth a thread
 
   explicit FacetTable(const Mesh& mesh) {
     const ElementTopology& t = mesh.topology();
-    corners_.reserve(static_cast<std::size_t>(mesh.cell_count()) * t.facets);
-    for (int c = 0; c < mesh.cell_count(); ++c)
-      for (int l = 0; l < t.facets; ++l) {
-        int nodes[4];
-        for (int k = 0; k < t.facet_corners; ++k) nodes[k] = mesh.facet_node({c, l}, k);
-        corners_.push_back(sorted(nodes, t.facet_corners));
-      }
+    corners_.resize(static_cast<std::size_t>(mesh.cell_count()) * t.facets);
+    parallel_ranges(mesh.cell_count(), threads_for(mesh.cell_count(), kFewCells), [&](int, int first, int end) {
+      for (int c = first; c < end; ++c)
+        for (int l = 0; l < t.facets; ++l) {
+          int nodes[4];
+          for (int k = 0; k < t.facet_corners; ++k) nodes[k] = mesh.facet_node({c, l}, k);
+          corners_[static_cast<std::size_t>(c) * t.facets + l] = sorted(nodes, t.facet_corners);
+        }
+    });
     by_least_ = Buckets(mesh.node_count(), [&](auto&& put) {
       for (int f = 0; f < count(); ++f) put(corners_[f][0], f);
     });
