@@ -7,7 +7,8 @@
 
 namespace dotyk::algebra {
 
-/// Calls visit(place among the numbers, row, column) for the entries of a lower triangle in rows or columns of some unknowns, flagged by `of`, in their order.
+/// Calls visit(place among the numbers, row, column) for the entries of a lower triangle, compressed, columns sorted, in rows or columns of the unknowns that
+/// `of` flags by 1, in their order.
 /// Columns that end above the first of these unknowns, or begin below the last, are not read: mostly unknowns near each other have numbers near each other.
 template <class Visit>
 void each_entry_of(const SparseMatrix& lower, const std::vector<char>& of, const Visit& visit) {

@@ -8,8 +8,8 @@
 namespace dotyk::multigrid {
 
 Galerkin::Galerkin(const HalfMatrix& fine, Mat interpolation)
-    : size_(BlockSize(interpolation).columns), fine_(fine.block()), asked_(fine.asked()), own_(fine.nodes()),
-      fine_nodes_(own_ + static_cast<int>(fine.others().size())) {
+    : size_(BlockSize(interpolation).columns), fine_(fine.block()), asked_(fine.asked()),
+      fine_nodes_(fine.nodes() + static_cast<int>(fine.others().size())) {
   PetscInt columns = 0, first = 0, end = 0;
   check(MatGetSize(interpolation, nullptr, &columns));
   check(MatGetOwnershipRangeColumn(interpolation, &first, &end));

@@ -1,4 +1,4 @@
-// Coarse matrices PᵀAP whose pattern is known, in which only some rows change.
+// Coarse matrices PᵀAP: their patterns, and their numbers where only some rows change.
 #pragma once
 
 #include <vector>
@@ -60,7 +60,7 @@ class Galerkin {
   int size_ = 1, fine_ = 1;          // rows of a coarse node, of a fine one
   std::vector<std::vector<int>> asked_;  // by rank the own fine nodes that its rows of A reach
   Rows reached_;                     // rows of P that this rank's rows of A reach, of nodes as HalfMatrix counts them; none where there is one rank, as these are P
-  int own_ = 0, fine_nodes_ = 0;     // fine nodes of this rank; those that are reached
+  int fine_nodes_ = 0;               // that are reached
   Buckets support_;                  // coarse node → the own rows of P with entries in its columns
   Buckets first_;                    // beside support_: the first of these entries
   std::vector<int> firsts_;          // by rank its first coarse node

@@ -125,7 +125,7 @@ void Hierarchy::coarsen(const Change& first) {
   if (!ranks_.all(same)) S = oblong(piece_.unknowns, piece_.own[0], {piece_.block, piece_.block});
   if (!piece_.functions.empty()) {
     take_functions(S);
-    if (piece_.tells_coarser) tell_coarser();
+    if (piece_.tells_coarser) compute_coarser();
     take(first);
     if (aggregates_follow(ranks_.sum(piece_.own.back()), ranks_.sum(piece_.own[0]))) {
       fill_coarse();
@@ -156,7 +156,7 @@ void Hierarchy::take_functions(Mat S) {
   }
 }
 
-void Hierarchy::tell_coarser() {
+void Hierarchy::compute_coarser() {
   const std::vector<char> computed = products_[0].compute(matrices_[0], interpolations_[0], matrices_[1], pending_[0]);
   std::ranges::fill(pending_[0], 0);
   coarser_ = matrices_[1].stored();

@@ -34,7 +34,7 @@ class Hierarchy {
   bool take(const Change& change);
   OwnedMat oblong(Rows& rows, int own_columns, std::array<int, 2> blocks);
   void coarsen(const Change& first);
-  void tell_coarser();
+  void compute_coarser();
   /// Levels of coarser meshes. S: the unknowns, of displacements, all slots; null where they are the same.
   void take_functions(Mat S);
   /// Levels of aggregates below `finest`, which has the modes.

@@ -59,7 +59,7 @@ class Sharing {
  public:
   /// `first`: unknown of each node, and the number of all.
   Sharing(const Matrix& matrix, const std::vector<int>& first, int ranks) : matrix_(matrix), first_(first), ranks_(ranks) {
-    constexpr int kEnough = 1000;  // nodes for each rank, so that shares are alike
+    constexpr int kEnough = 100;  // nodes for each rank, so that shares are alike
     const int meshes = matrix.coarse ? static_cast<int>(matrix.coarse->size()) : 0;
     for (int l = 0; l <= meshes; ++l) of_.emplace_back(static_cast<std::size_t>(nodes(l)), 0);
     if (ranks == 1) return;

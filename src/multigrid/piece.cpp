@@ -82,7 +82,7 @@ void visit_rows(Rows& rows, Visit&& visit) {
   visit(rows.starts), visit(rows.columns), visit(rows.values);
 }
 
-/// Calls visit(list) for each list of numbers; likewise for a piece and a change.
+/// Calls visit(list) for each list of numbers of rows; the functions after it do so for a piece and a change.
 template <class Visit>
 void visit_all(HalfRows& rows, Visit&& visit) {
   std::vector<int> numbers{rows.block, rows.first};

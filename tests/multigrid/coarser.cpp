@@ -1,7 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <cstdlib>
+#include <cmath>
 #include <span>
 
 #include "algebra/congruent.hpp"
@@ -61,6 +61,7 @@ TEST_CASE("the matrix of the next coarser mesh is told") {
   const algebra::Triplets changed{{0, 0, 2 * cube.lower.coeff(0, 0)}};
   for (const algebra::Triplets* other : {static_cast<const algebra::Triplets*>(nullptr), &changed}) {  // of which it knows nothing
     matrix.changed = other;
+    coarser = algebra::StoredMatrix();
     const auto telling = multigrid::make_solver(matrix, monitor);
     REQUIRE(coarser.rows() == expected.rows());
     CHECK(algebra::SparseMatrix(coarser - expected).norm() <= 1e-14 * expected.norm());  // sums of 27 numbers

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "algebra/direct/stop_factoring.hpp"
 #include "base/error.hpp"
 #include "base/stopwatch.hpp"
 #include "problem/coarser.hpp"
@@ -31,7 +32,11 @@ CoarseStart coarse_start(const Problem& problem, const Pdas& settings, Monitor& 
   Stopwatch watch;
   monitor.phase("ordering");
   algebra::StoredMatrix stiffness;
-  start.stiffness = std::make_shared<HeldStiffness>(problem, problem::rigid_motions(problem), settings.linear, monitor, &stiffness);
+  const auto rigid = [&] {
+    const algebra::StopFactoring stop(monitor);
+    return problem::rigid_motions(problem);
+  }();
+  start.stiffness = std::make_shared<HeldStiffness>(problem, rigid, settings.linear ? settings.linear : factor(settings.ordering), monitor, &stiffness);
   start.ordering = watch.lap();
   monitor.phase("solving on coarser meshes");
   problem::Coarser coarse = problem::coarser(problem, std::move(stiffness));
@@ -42,13 +47,14 @@ CoarseStart coarse_start(const Problem& problem, const Pdas& settings, Monitor& 
   Problem part = rows.restricted();
   for (std::size_t b = 0; b < K.size(); ++b) part.blocks[b].K = std::move(K[b]);
   Result result;
+  int meshes = 0;
   InnerMonitor inner(monitor);
   try {
     const CoarseStart before = coarse_start(part, settings, inner);
     Pdas begun = settings;
     begun.from = before.state, begun.stiffness = before.stiffness, begun.nested = false, begun.rough = true;
     begun.tol = std::max(begun.tol, kTolerance);
-    start.meshes = before.meshes + 1;
+    meshes = before.meshes + 1;
     result = part.unknowns() > kSmall ? solve(part, begun, inner) : solve(part, {}, {}, inner);
   } catch (const Interrupted&) {
     throw;
@@ -58,6 +64,7 @@ CoarseStart coarse_start(const Problem& problem, const Pdas& settings, Monitor& 
   }
   monitor.check();
   if (!result.converged) return start;
+  start.meshes = meshes;
   rows.extend(result);
   start.state = std::make_shared<problem::State>(coarse.prolonged(result.state));
   return start;

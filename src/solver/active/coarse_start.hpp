@@ -11,7 +11,7 @@ namespace dotyk::solver {
 struct CoarseStart {
   std::shared_ptr<const problem::State> state;  ///< of this mesh, as the coarser one's; null where no coarser mesh is known or its problem was not solved
   int meshes = 0;                               ///< solved on
-  std::shared_ptr<HeldStiffness> stiffness;     ///< of this problem; null where no coarser mesh is known
+  std::shared_ptr<HeldStiffness> stiffness;     ///< of this problem; null where it has no rows, few unknowns or no coarser mesh
   double ordering = 0;                          ///< seconds for that
 };
 CoarseStart coarse_start(const problem::Problem& problem, const Pdas& settings, Monitor& monitor);

@@ -58,7 +58,7 @@ HeldStiffness::HeldStiffness(const Problem& problem, const RigidMotions& rigid, 
 
 void HeldStiffness::assemble() {
   const auto has_diagonal = [](const SparseMatrix& K, int j) { return K.outerIndexPtr()[j] < K.outerIndexPtr()[j + 1] && K.innerIndexPtr()[K.outerIndexPtr()[j]] == j; };
-  std::vector<Eigen::Triplet<double>> entries;  // of rows, and of the diagonal where it lacks: zeros in the pattern
+  std::vector<Eigen::Triplet<double>> entries;  // of rows, and of the diagonal where K has no entry there: zeros in the pattern
   for (int r = 0; r < problem_.rows(); ++r)
     for (SparseRows::InnerIterator i(rows_, r); i; ++i)
       for (SparseRows::InnerIterator j(rows_, r); j && j.col() <= i.col(); ++j) entries.emplace_back(static_cast<int>(i.col()), static_cast<int>(j.col()), 0.0);

@@ -182,7 +182,7 @@ Result solve(const problem::Problem& problem, const Pdas& settings, Monitor& mon
   if (it.is_analysed()) {
     const algebra::SpdSolver& solver = it.stiffness().solver();
     it.result.factor_bytes = std::max(it.result.factor_bytes, solver.bytes());
-    if (solver.levels() > 0) it.result.method = "multigrid", it.result.multigrid = {solver.levels(), solver.iterations(), it.result.iterations};
+    if (solver.levels() > 0) it.result.method = "multigrid", it.result.multigrid = {solver.levels(), it.linear_iterations(), it.result.iterations};
   }
   if (it.result.converged && pieces && !settings.rough) confirm_laws(it);
   it.result.clock.recover += iterating.lap();

@@ -152,6 +152,7 @@ HeldStiffness& SetIteration::stiffness() {
     stiffness_ = std::make_shared<HeldStiffness>(problem, rigid, settings.linear ? settings.linear : factor(settings.ordering), monitor);
   }
   result.clock.ordering += watch.lap();
+  iterations_before_ = stiffness_->solver().iterations();
   result.factor_bytes = stiffness_->solver().bytes();
   result.ordering = stiffness_->solver().method();
   return *stiffness_;

@@ -60,6 +60,7 @@ class SetIteration {
   bool begins_somewhere() const { return !settings.start.empty() || (settings.from && !settings.reduced); }
   bool is_condensed() const { return condensed_ != nullptr; }
   bool is_analysed() const { return stiffness_ != nullptr; }
+  int linear_iterations() { return stiffness().solver().iterations() - iterations_before_; }  ///< of this solve
 
  private:
   void begin_from(const problem::State& from);
@@ -80,6 +81,7 @@ class SetIteration {
   problem::Parts parts_;
   problem::Condenser own_;
   const problem::CondensedProblem* condensed_ = nullptr;
+  int iterations_before_ = 0;                 ///< of the linear solver, where another solve has used it
   std::shared_ptr<HeldStiffness> stiffness_;  ///< of the held form, and of the interior point method
   std::vector<int> changed_;
   std::set<std::uint64_t> seen_;
