@@ -7,6 +7,12 @@
 
 namespace dotyk::algebra {
 
+/// K_jj of a lower triangle, columns sorted; null where there is no such entry.
+inline const double* diagonal_entry(const SparseMatrix& lower, int j) {
+  const int first = lower.outerIndexPtr()[j];
+  return first < lower.outerIndexPtr()[j + 1] && lower.innerIndexPtr()[first] == j ? lower.valuePtr() + first : nullptr;
+}
+
 /// Calls visit(place among the numbers, row, column) for the entries of a lower triangle, compressed, columns sorted, in rows or columns of the unknowns that
 /// `of` flags by 1, in their order.
 /// Columns that end above the first of these unknowns, or begin below the last, are not read: mostly unknowns near each other have numbers near each other.

@@ -37,9 +37,12 @@ Galerkin::ReachedRows Galerkin::reached(const RowsView& own) const {
 }
 
 void Galerkin::fetch(Mat interpolation) {
-  if (asked_.empty()) return;
-  const Ranks ranks = ranks_of(interpolation);
   const LocalRows P(interpolation);
+  if (!asked_.empty()) fetch_rows(ranks_of(interpolation), P);
+  find_multiples(reached(*P.own));
+}
+
+void Galerkin::fetch_rows(const Ranks& ranks, const LocalRows& P) {
   reached_.starts.assign(1, 0), reached_.columns.clear(), reached_.values.clear();
   for (int i = 0; i < P.count(); ++i) {
     P.for_each(i, [&](int column, double value) { reached_.columns.push_back(column), reached_.values.push_back(value); });
@@ -248,7 +251,6 @@ std::vector<char> Galerkin::compute(const HalfMatrix& fine, Mat interpolation, H
   Outgoing out{std::vector<std::vector<int>>(firsts_.size()), std::vector<std::vector<double>>(firsts_.size())};
   const LocalRows own_rows(interpolation);
   const ReachedRows P = reached(*own_rows.own);
-  find_multiples(P);
   for (int b = 0; b < support_.count(); ++b) {
     if (!due[b] || (!mine(b) && support_[b].empty())) continue;
     if (fine_ == 3 && size_ == 3) compute_block<3, 3>(b, fine, P);

@@ -1,4 +1,4 @@
-// Coarse matrices PᵀAP: their patterns, and their numbers where only some rows change.
+// Coarse matrices PᵀAP: their patterns, and their numbers, computed anew only in rows that change.
 #pragma once
 
 #include <vector>
@@ -48,6 +48,7 @@ class Galerkin {
   void add_scaled(int node, double factor, const HalfMatrix& A);
   template <int columns>
   void add_product(const ReachedRows& P);
+  void fetch_rows(const Ranks& ranks, const LocalRows& P);  ///< into reached_
   void find_multiples(const ReachedRows& P);
   void put_block(int block, HalfMatrix& C);
   void append_block(int block, int rank, Outgoing& out);
@@ -66,8 +67,7 @@ class Galerkin {
   std::vector<int> firsts_;          // by rank its first coarse node
   int first_own_ = 0, own_blocks_ = 0;  // coarse nodes of this rank
   std::vector<char> multiples_;      // of each fine node that is reached: are its blocks of P multiples of the identity, as those of meshes are?
-  // Room to work: `product_` has (A P)_kJ for fine nodes k and the block J, since A is symmetric; `sum_` the block's rows of the coarse matrix, transposed,
-  // by the nodes of its columns.
+  // Room to work for one block J. `product_`: (A P)_kJ of fine nodes k. `sum_`: (PᵀAP)_IJ of coarse nodes I, which is the transpose of the block's rows.
   SomeRows product_, sum_;
   std::vector<double> entries_;      // P_iJ of one fine node i
 };

@@ -15,10 +15,8 @@ RowsView::~RowsView() {
 }
 
 LocalRows::LocalRows(Mat matrix) {
-  PetscInt last = 0;
   check(MatGetOwnershipRange(matrix, &first_row, nullptr));
-  check(MatGetOwnershipRangeColumn(matrix, &first_column, &last));
-  own_columns = last - first_column;
+  check(MatGetOwnershipRangeColumn(matrix, &first_column, nullptr));
   if (ranks_of(matrix).alone()) {
     own.emplace(matrix);
     return;
@@ -65,13 +63,12 @@ OwnedMat matrix_of(const Ranks& ranks, Rows& rows, Rows& others, int own_columns
 
 OwnedMat copied(const Ranks& ranks, const Rows& rows, int own_columns) {
   const int count = static_cast<int>(rows.starts.size()) - 1;
-  const double* values = rows.values.empty() ? nullptr : rows.values.data();
   OwnedMat m;
   check(MatCreate(ranks.comm(), m.put()));
   check(MatSetSizes(m, count, own_columns, PETSC_DETERMINE, PETSC_DETERMINE));
   check(MatSetType(m, ranks.alone() ? MATSEQAIJ : MATMPIAIJ));
-  check(ranks.alone() ? MatSeqAIJSetPreallocationCSR(m, rows.starts.data(), rows.columns.data(), values)
-                      : MatMPIAIJSetPreallocationCSR(m, rows.starts.data(), rows.columns.data(), values));
+  check(ranks.alone() ? MatSeqAIJSetPreallocationCSR(m, rows.starts.data(), rows.columns.data(), rows.values.data())
+                      : MatMPIAIJSetPreallocationCSR(m, rows.starts.data(), rows.columns.data(), rows.values.data()));
   return m;
 }
 

@@ -43,7 +43,7 @@ class LocalRows {
 
   std::optional<RowsView> own, other;
   const PetscInt* others = nullptr;            ///< by column of `other`: its number, ascending
-  int first_row = 0, first_column = 0, own_columns = 0;
+  int first_row = 0, first_column = 0;
 };
 
 /// How many rows, and how many columns, of a matrix belong to a node.
@@ -56,7 +56,7 @@ struct BlockSize {
 /// moved from `rows` to `others`. Collective.
 OwnedMat matrix_of(const Ranks& ranks, Rows& rows, Rows& others, int own_columns, std::array<int, 2> blocks);
 
-/// A matrix with these rows, which it copies; zeros where they have no values. Collective.
+/// A matrix with these rows, which it copies. Collective.
 OwnedMat copied(const Ranks& ranks, const Rows& rows, int own_columns);
 
 /// Numbers were changed: what PETSc derived from them is out of date.

@@ -30,8 +30,10 @@ class PetscSolver final : public algebra::SpdSolver {
     ranks.together([&] {
       std::vector<Change> first(static_cast<std::size_t>(ranks.count()));
       if (matrix.changed) first = changes(*matrix.changed, {}, {}, numbering_, ranks.count());
-      cycle_ = std::make_unique<Cycle>(ranks, share_out(pieces, first), first[0]);
-      if (!matrix.coarser || !matrix.coarse || matrix.coarse->empty()) return;
+      Piece own = share_out(pieces, first);
+      const bool tells = own.tells_coarser;
+      cycle_ = std::make_unique<Cycle>(ranks, std::move(own), first[0]);
+      if (!tells) return;
       std::vector<HalfRows> coarser;
       coarser.push_back(cycle_->take_coarser());
       for (int r = 1; r < ranks.count(); ++r) coarser.push_back(receive_rows(ranks, r));

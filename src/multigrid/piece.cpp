@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include "algebra/entries_of.hpp"
 #include "base/parallel.hpp"
 
 namespace dotyk::multigrid {
@@ -22,31 +23,31 @@ struct Range {
 
 Range range_of(int rank, const Numbering& numbering, int level) { return {numbering.first(level)[rank], numbering.first(level)[rank + 1]}; }
 
-void sort_rows(Rows& rows) {
-  std::vector<std::pair<int, double>> row;
-  for (std::size_t i = 0; i + 1 < rows.starts.size(); ++i) {
-    const int begin = rows.starts[i], end = rows.starts[i + 1];
-    if (std::is_sorted(rows.columns.begin() + begin, rows.columns.begin() + end)) continue;
-    row.clear();
-    for (int k = begin; k < end; ++k) row.emplace_back(rows.columns[k], rows.values[k]);
-    std::sort(row.begin(), row.end());
-    for (int k = begin; k < end; ++k) std::tie(rows.columns[k], rows.values[k]) = row[k - begin];
+/// Sorts the entries of rows, or columns, first … last − 1 by their indices.
+void sort_entries(const int* starts, int first, int last, int* indices, double* values) {
+  std::vector<std::pair<int, double>> one;
+  for (int i = first; i < last; ++i) {
+    const int begin = starts[i], end = starts[i + 1];
+    if (std::is_sorted(indices + begin, indices + end)) continue;
+    one.clear();
+    for (int k = begin; k < end; ++k) one.emplace_back(indices[k], values[k]);
+    std::ranges::sort(one);
+    for (int k = begin; k < end; ++k) std::tie(indices[k], values[k]) = one[k - begin];
   }
 }
 
 /// Mean of the diagonal. Throws where that is not positive, or no lower triangle's.
 double mean_diagonal(const algebra::SparseMatrix& lower) {
-  const int* begin = lower.outerIndexPtr();
   double sum = 0;
   for (int j = 0; j < lower.cols(); ++j) {
-    const bool has = begin[j] < begin[j + 1] && lower.innerIndexPtr()[begin[j]] == j;
-    if (!has || !(lower.valuePtr()[begin[j]] > 0)) throw std::runtime_error("multigrid: the matrix is no lower triangle, or its diagonal is not positive");
-    sum += lower.valuePtr()[begin[j]];
+    const double* entry = algebra::diagonal_entry(lower, j);
+    if (!entry || !(*entry > 0)) throw std::runtime_error("multigrid: the matrix is no lower triangle, or its diagonal is not positive");
+    sum += *entry;
   }
   return sum / static_cast<double>(lower.cols());
 }
 
-/// The rows of `from` whose new numbers are in the range, with new numbers of columns.
+/// The rows of `from` that the new numbering puts into the range. Their columns get new numbers, too.
 Rows some_rows(const algebra::SparseRows& from, const std::vector<int>& row_number, const std::vector<int>& column_number, const Range& range,
                const std::vector<int>& idle = {}) {
   std::vector<int> origin(static_cast<std::size_t>(range.count()), -1);  // row of `from`
@@ -65,7 +66,7 @@ Rows some_rows(const algebra::SparseRows& from, const std::vector<int>& row_numb
     if (is_idle[r]) rows.columns.push_back(range.first + r), rows.values.push_back(1.0);
     rows.starts.push_back(static_cast<int>(rows.columns.size()));
   }
-  sort_rows(rows);
+  sort_entries(rows.starts.data(), 0, range.count(), rows.columns.data(), rows.values.data());
   return rows;
 }
 
@@ -82,7 +83,7 @@ void visit_rows(Rows& rows, Visit&& visit) {
   visit(rows.starts), visit(rows.columns), visit(rows.values);
 }
 
-/// Calls visit(list) for each list of numbers of rows; the functions after it do so for a piece and a change.
+/// Calls visit(list) for each list that the rows consist of; the overloads below do the same for a piece and for a change.
 template <class Visit>
 void visit_all(HalfRows& rows, Visit&& visit) {
   std::vector<int> numbers{rows.block, rows.first};
@@ -159,22 +160,6 @@ void each_lower(const HalfRows& rows, const std::vector<int>& place, const Visit
   }
 }
 
-/// Sorts the rows of each column.
-void sort_columns(algebra::SparseMatrix& matrix) {
-  constexpr Eigen::Index kFew = 1'000'000;  // entries, for a thread
-  const int threads = threads_for(matrix.nonZeros(), kFew);
-  parallel_ranges(static_cast<int>(matrix.cols()), threads, [&](int, int first, int end) {
-    std::vector<std::pair<int, double>> column;
-    for (int j = first; j < end; ++j) {
-      const int begin = matrix.outerIndexPtr()[j];
-      column.clear();
-      for (algebra::SparseMatrix::InnerIterator it(matrix, j); it; ++it) column.emplace_back(it.row(), it.value());
-      std::ranges::sort(column);
-      for (std::size_t k = 0; k < column.size(); ++k) std::tie(matrix.innerIndexPtr()[begin + k], matrix.valuePtr()[begin + k]) = column[k];
-    }
-  });
-}
-
 }  // namespace
 
 algebra::StoredMatrix Pieces::coarser(const std::vector<HalfRows>& of_ranks) const {
@@ -205,13 +190,15 @@ algebra::StoredMatrix Pieces::coarser(const std::vector<HalfRows>& of_ranks) con
     lower.innerIndexPtr()[next[column]] = row;
     lower.valuePtr()[next[column]++] = number;
   });
-  sort_columns(lower);
+  constexpr Eigen::Index kFew = 1'000'000;  // entries, for a thread
+  parallel_ranges(count, threads_for(lower.nonZeros(), kFew),
+                  [&](int, int first, int end) { sort_entries(starts, first, end, lower.innerIndexPtr(), lower.valuePtr()); });
   return lower;
 }
 
 namespace {
 
-/// Are the rows of a column those of the one before, but for the first? Components of a node mostly are coupled alike.
+/// Does a column have the rows of the column before it, without the first of these? Most components of a node do.
 bool as_before(const algebra::SparseMatrix& lower, int j) {
   const int *begin = lower.outerIndexPtr() + j, *rows = lower.innerIndexPtr();
   return begin[0] - begin[-1] == begin[1] - begin[0] + 1 && std::equal(rows + begin[0], rows + begin[1], rows + begin[-1] + 1);

@@ -10,7 +10,7 @@
 
 namespace dotyk::multigrid {
 
-/// What one rank is given. Rows and columns have the numbers of Numbering.
+/// What one rank is given. Rows and columns are numbered as in Numbering.
 struct Piece {
   int block = 1, dimension = 3;  ///< unknowns of a node: on the finest level, on coarser meshes
   int motions = 0;               ///< columns of `modes`

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "algebra/dense/generalised_inverse.hpp"
+#include "algebra/entries_of.hpp"
 #include "algebra/symmetric_product.hpp"
 #include "base/error.hpp"
 #include "base/moderate.hpp"
@@ -43,10 +44,9 @@ std::vector<const RowGroup*> Problem::group_of_rows() const {
 
 namespace {
 
-/// K_jj: a lower column's first entry, where it has one.
 double diagonal(const Block& block, int j) {
-  const SparseMatrix::InnerIterator first(block.K, j);
-  return first && first.row() == j ? first.value() : 0;
+  const double* entry = algebra::diagonal_entry(block.K, j);
+  return entry ? *entry : 0;
 }
 
 /// Σ_j B_rj² term(K_jj), row by row.

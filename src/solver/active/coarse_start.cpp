@@ -36,7 +36,7 @@ CoarseStart coarse_start(const Problem& problem, const Pdas& settings, Monitor& 
     const algebra::StopFactoring stop(monitor);
     return problem::rigid_motions(problem);
   }();
-  start.stiffness = std::make_shared<HeldStiffness>(problem, rigid, settings.linear ? settings.linear : factor(settings.ordering), monitor, &stiffness);
+  start.stiffness = std::make_shared<HeldStiffness>(problem, rigid, settings.linear_or_factor(), monitor, &stiffness);
   start.ordering = watch.lap();
   monitor.phase("solving on coarser meshes");
   problem::Coarser coarse = problem::coarser(problem, std::move(stiffness));

@@ -57,7 +57,6 @@ HeldStiffness::HeldStiffness(const Problem& problem, const RigidMotions& rigid, 
 }
 
 void HeldStiffness::assemble() {
-  const auto has_diagonal = [](const SparseMatrix& K, int j) { return K.outerIndexPtr()[j] < K.outerIndexPtr()[j + 1] && K.innerIndexPtr()[K.outerIndexPtr()[j]] == j; };
   std::vector<Eigen::Triplet<double>> entries;  // of rows, and of the diagonal where K has no entry there: zeros in the pattern
   for (int r = 0; r < problem_.rows(); ++r)
     for (SparseRows::InnerIterator i(rows_, r); i; ++i)
@@ -68,7 +67,7 @@ void HeldStiffness::assemble() {
   }
   for (const problem::Block& block : problem_.blocks)
     for (int j = 0; j < block.size(); ++j)
-      if (!has_diagonal(block.K, j)) entries.emplace_back(block.first + j, block.first + j, 0.0);
+      if (!algebra::diagonal_entry(block.K, j)) entries.emplace_back(block.first + j, block.first + j, 0.0);
   const SparseMatrix zeros = algebra::from_triplets(problem_.unknowns(), problem_.unknowns(), entries);
   const bool alone = problem_.blocks.size() == 1;
   if (alone && basis_.trivial() && has_room(problem_.blocks.front().K, zeros)) return;

@@ -27,6 +27,7 @@ struct Pdas : Settings {
   bool interior = false;
   /// What solves the linear systems of all unknowns; empty: a sparse Cholesky factor.
   MakeSpdSolver linear;
+  MakeSpdSolver linear_or_factor() const { return linear ? linear : factor(ordering); }
   /// Where coarser meshes are known and neither `start` nor `from` is given, the iteration begins at the solution on the next coarser mesh; see coarse_start().
   /// Where that does not converge, it begins once more from zero displacement, with the iterations that are left.
   bool nested = false;

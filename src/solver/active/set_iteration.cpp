@@ -149,7 +149,7 @@ HeldStiffness& SetIteration::stiffness() {
   stiffness_ = settings.stiffness;
   if (!stiffness_) {
     monitor.phase("ordering");
-    stiffness_ = std::make_shared<HeldStiffness>(problem, rigid, settings.linear ? settings.linear : factor(settings.ordering), monitor);
+    stiffness_ = std::make_shared<HeldStiffness>(problem, rigid, settings.linear_or_factor(), monitor);
   }
   result.clock.ordering += watch.lap();
   iterations_before_ = stiffness_->solver().iterations();
