@@ -37,12 +37,12 @@ void place_between(const mesh::Mesh& whole, mesh::Mesh& pieces) {
 
 mesh::Mesh refined(const mesh::Mesh& mesh, Monitor* watch) {
   const auto go_on = [&] { if (watch) watch->check(); };
-  mesh::Mesh second = mesh::second_order(mesh);
+  mesh::Mesh second = mesh::second_order(mesh, watch);
   go_on();
   mesh::Mesh cut = mesh::cut_at_nodes(std::move(second));
   if (mesh.topology().order == 1) return cut;
   go_on();
-  mesh::Mesh pieces = mesh::second_order(std::move(cut));
+  mesh::Mesh pieces = mesh::second_order(std::move(cut), watch);
   go_on();
   dispatch(mesh.element, [&]<class E>() {
     if constexpr (E::order == 2) place_between<E>(mesh, pieces);

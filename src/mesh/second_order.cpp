@@ -1,67 +1,98 @@
 #include "mesh/second_order.hpp"
 
 #include <algorithm>
-#include <cmath>
-
-#include "mesh/facet_table.hpp"
+#include <stdexcept>
 
 namespace dotyk::mesh {
 namespace {
 
-/// A node between corners of a cell; cells that share the corners share it.
-struct Between {
-  std::array<int, 4> corners;  ///< ascending; -1 where there are two
-  int cell, local;
-};
+/// Node k of between() of a cell, in all cells: cell · between.size() + k. Those of a kind lie between `corners` corners: 2 on an edge, 4 in a face.
+/// By their least corner, ascending by the others where visited.
+class Between {
+ public:
+  Between(const Mesh& mesh, const ElementTopology& t, std::size_t corners) : mesh_(mesh), t_(t), count_(corners) {
+    of_least_ = Buckets(mesh.node_count(), [&](auto&& put) {
+      for (int c = 0; c < mesh.cell_count(); ++c)
+        for (std::size_t k = 0; k < t.between.size(); ++k)
+          if (t.between[k].size() == corners) put(least(c, t.between[k]), c * static_cast<int>(t.between.size()) + static_cast<int>(k));
+    });
+  }
 
-std::vector<Between> all_between(const Mesh& mesh, const ElementTopology& t) {
-  std::vector<Between> all;
-  for (int c = 0; c < mesh.cell_count(); ++c)
-    for (std::size_t k = 0; k < t.between.size(); ++k) {
-      const std::vector<int>& corners = t.between[k];
-      Between one{{-1, -1, -1, -1}, c, t.corners + static_cast<int>(k)};
-      // A hexahedron's centre is told from faces, and from other cells', by one corner and itself.
-      if (corners.size() == 8)
-        one.corners[3] = mesh.node_count() + c;
-      else
-        for (std::size_t i = 0; i < corners.size(); ++i) one.corners[3 - i] = mesh.cell(c)[corners[i]];
-      std::sort(one.corners.begin(), one.corners.end());
-      all.push_back(one);
-    }
-  return all;
-}
+  /// Calls visit(number, first) for each number with this least corner; `first` where its corners are not the last one's.
+  template <class Visit>
+  void with_least(int corner, const Visit& visit) {
+    found_.clear();
+    for (const int number : of_least_[corner]) found_.push_back({corners_of(number), number});
+    std::sort(found_.begin(), found_.end());
+    for (std::size_t i = 0; i < found_.size(); ++i) visit(found_[i].second, i == 0 || found_[i].first != found_[i - 1].first);
+  }
+
+ private:
+  int least(int cell, const std::vector<int>& corners) const {
+    const int* nodes = mesh_.cell(cell);
+    int result = nodes[corners[0]];
+    for (const int k : corners) result = std::min(result, nodes[k]);
+    return result;
+  }
+
+  std::array<int, 4> corners_of(int number) const {
+    const int* nodes = mesh_.cell(number / static_cast<int>(t_.between.size()));
+    const std::vector<int>& corners = t_.between[static_cast<std::size_t>(number) % t_.between.size()];
+    std::array<int, 4> result{-1, -1, -1, -1};
+    for (std::size_t i = 0; i < count_; ++i) result[i] = nodes[corners[i]];
+    std::sort(result.begin(), result.begin() + static_cast<std::ptrdiff_t>(count_));
+    return result;
+  }
+
+  const Mesh& mesh_;
+  const ElementTopology& t_;
+  std::size_t count_;
+  Buckets of_least_;
+  std::vector<std::pair<std::array<int, 4>, int>> found_;
+};
 
 }  // namespace
 
-Mesh second_order(Mesh first) {
+Mesh second_order(Mesh first, Monitor* watch) {
   if (first.topology().order == 2) return first;
   Mesh mesh;
   mesh.element = second_order(first.element);
   mesh.coordinates = first.coordinates;
   mesh.parts = std::move(first.parts);
   const ElementTopology& t = mesh.topology();
-  std::vector<Between> all = all_between(first, t);
-  std::stable_sort(all.begin(), all.end(), [](const Between& a, const Between& b) { return a.corners < b.corners; });
   mesh.cells.resize(static_cast<std::size_t>(first.cell_count()) * t.nodes);
-  std::vector<std::vector<int>> means;
   for (int c = 0; c < first.cell_count(); ++c)
     std::copy_n(first.cell(c), t.corners, mesh.cells.begin() + static_cast<std::ptrdiff_t>(c) * t.nodes);
-  for (std::size_t k = 0; k < all.size(); ++k) {
-    const Between& one = all[k];
-    if (k == 0 || one.corners != all[k - 1].corners) {
-      std::vector<int> corners = t.between[one.local - t.corners];
-      for (int& k : corners) k = first.cell(one.cell)[k];
-      const Point x = first.mean(corners.data(), static_cast<int>(corners.size()));
-      mesh.coordinates.insert(mesh.coordinates.end(), x.begin(), x.begin() + t.dimension);
-      means.push_back(std::move(corners));
+
+  const int own = first.node_count(), each = static_cast<int>(t.between.size());
+  std::vector<int> made_by;  // node own + i → the first number that is it
+  const auto place = [&](int number, bool is_new) {
+    if (is_new) made_by.push_back(number);
+    mesh.cells[static_cast<std::size_t>(number / each) * t.nodes + t.corners + number % each] = own + static_cast<int>(made_by.size()) - 1;
+  };
+  if (t.between.back().size() == 8)
+    for (int c = 0; c < first.cell_count(); ++c) place(c * each + each - 1, true);
+  for (const std::size_t corners : {2, 4}) {
+    Between between(first, t, corners);
+    for (int i = 0; i < own; ++i) {
+      if (watch && i % 1000 == 0) watch->check();
+      between.with_least(i, place);
     }
-    mesh.cells[static_cast<std::size_t>(one.cell) * t.nodes + one.local] = mesh.node_count() - 1;
   }
-  const int own = first.node_count();
+
+  const auto each_corner = [&](std::size_t i, const auto& visit) {
+    for (const int k : t.between[static_cast<std::size_t>(made_by[i] % each)]) visit(first.cell(made_by[i] / each)[k]);
+  };
+  mesh.coordinates.reserve((own + made_by.size()) * static_cast<std::size_t>(t.dimension));
+  for (std::size_t i = 0; i < made_by.size(); ++i) {
+    int corners[8], count = 0;
+    each_corner(i, [&](int corner) { corners[count++] = corner; });
+    const Point x = first.mean(corners, count);
+    mesh.coordinates.insert(mesh.coordinates.end(), x.begin(), x.begin() + t.dimension);
+  }
   mesh.coarser = std::make_shared<Coarser>(Coarser{Buckets(mesh.node_count(), [&](auto&& put) {
     for (int i = 0; i < own; ++i) put(i, i);
-    for (std::size_t k = 0; k < means.size(); ++k)
-      for (const int corner : means[k]) put(own + static_cast<int>(k), corner);
+    for (std::size_t i = 0; i < made_by.size(); ++i) each_corner(i, [&](int corner) { put(own + static_cast<int>(i), corner); });
   }), own, first.coarser});
   return mesh;
 }
@@ -90,6 +121,17 @@ PieceCorners tensor_pieces(int dimension) {
           {26, 21, 18, 23, 25, 13, 6, 14}, {20, 26, 23, 19, 15, 25, 14, 7}};
 }
 
+/// The facet of a piece of the cell, {piece, facet}, that has these corners, nodes of the whole cell.
+Facet facet_of_pieces(const ElementTopology& piece, const PieceCorners& pieces, const std::vector<int>& corners) {
+  for (std::size_t p = 0; p < pieces.size(); ++p)
+    for (int f = 0; f < piece.facets; ++f) {
+      std::vector<int> own;
+      for (int k = 0; k < piece.nodes_per_facet; ++k) own.push_back(pieces[p][static_cast<std::size_t>(piece.facet_nodes[f][k])]);
+      if (std::is_permutation(own.begin(), own.end(), corners.begin(), corners.end())) return {static_cast<int>(p), f};
+    }
+  throw std::logic_error("no piece of a cell has this piece of its facet");
+}
+
 }  // namespace
 
 Mesh cut_at_nodes(Mesh whole) {
@@ -102,18 +144,20 @@ Mesh cut_at_nodes(Mesh whole) {
   mesh.element = first_order(whole.element);
   mesh.coordinates = whole.coordinates;
   mesh.coarser = whole.coarser;
+  mesh.cells.reserve(static_cast<std::size_t>(whole.cell_count()) * pieces.size() * static_cast<std::size_t>(t.corners));
   for (int c = 0; c < whole.cell_count(); ++c)
     for (const std::vector<int>& piece : pieces)
       for (const int k : piece) mesh.cells.push_back(whole.cell(c)[k]);
-  const FacetTable table(mesh);
-  const int each = mesh.topology().facets;
+  std::vector<std::vector<Facet>> within(static_cast<std::size_t>(t.facets));  // facet of a cell → its pieces
+  for (std::size_t l = 0; l < within.size(); ++l)
+    for (std::vector<int> corners : facet_pieces) {
+      for (int& k : corners) k = t.facet_nodes[l][k];
+      within[l].push_back(facet_of_pieces(mesh.topology(), pieces, corners));
+    }
   for (const auto& [name, facets] : whole.parts)
     for (const Facet facet : facets)
-      for (const std::vector<int>& piece : facet_pieces) {
-        int nodes[4], count = 0;
-        for (const int k : piece) nodes[count++] = whole.facet_node(facet, k);
-        table.with(FacetTable::sorted(nodes, count), [&](int f) { mesh.parts[name].push_back({f / each, f % each}); });
-      }
+      for (const Facet of : within[static_cast<std::size_t>(facet.local)])
+        mesh.parts[name].push_back({facet.cell * static_cast<int>(pieces.size()) + of.cell, of.local});
   return mesh;
 }
 

@@ -1,12 +1,14 @@
 #pragma once
 
+#include "base/monitor.hpp"
 #include "mesh/generators.hpp"
 
 namespace dotyk::mesh {
 
 /// The same cells of order 2, straight: the mesh's nodes, then one in the middle of each edge, quadrilateral face and
 /// tensor cell. Parts stay. A mesh of order 2 is returned as it is.
-Mesh second_order(Mesh mesh);
+/// `watch`: asked meanwhile whether to stop; Interrupted is thrown then.
+Mesh second_order(Mesh mesh, Monitor* watch = nullptr);
 
 /// second_order() where the family is of that order, else the mesh.
 Mesh of_family(Mesh first, Family family);
