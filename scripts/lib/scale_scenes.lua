@@ -6,12 +6,13 @@ local function paraboloid(x, y) return (x - 0.5)^2 + (y - 0.5)^2 end
 local function coulomb(coefficient) return coefficient and dotyk.friction.coulomb(coefficient) end
 
 -- S3 of the benchmarks: a rigid paraboloid on a cube of n³ cells. `o` may have nu, height (of the cube), depth (of the paraboloid, over the height),
--- friction (Coulomb's coefficient), element, linear (a load in place of contact).
+-- friction (Coulomb's coefficient), element, linear (a load in place of contact), row (so many cubes that are one body, side by side, each with a
+-- paraboloid of its own).
 function scenes.cube(n, o)
   o = o or {}
-  local height <const> = o.height or 1
+  local height <const>, row <const> = o.height or 1, o.row or 1
   local body <const> = dotyk.body{ material = dotyk.material{ E = 1000, nu = o.nu or 0.3 },
-    mesh = dotyk.mesh.box{ from = {0, 0, 0}, to = {1, 1, height}, cells = {n, n, n}, element = o.element } }
+    mesh = dotyk.mesh.box{ from = {0, 0, 0}, to = {row, 1, height}, cells = {row * n, n, n}, element = o.element } }
   body:part"bottom":fix()
   local scene <const> = dotyk.scene{ body }
   if o.linear then
@@ -19,7 +20,7 @@ function scenes.cube(n, o)
   else
     local depth <const> = (o.depth or 0.02) * height
     scene:contact{ body:part"top", friction = coulomb(o.friction), interference = true,
-      rigid = dotyk.rigid.gap{ normal = {0, 0, 1}, gap = function(x, y) return paraboloid(x, y) / 2 - depth end } }
+      rigid = dotyk.rigid.gap{ normal = {0, 0, 1}, gap = function(x, y) return paraboloid(x - math.min(math.floor(x), row - 1), y) / 2 - depth end } }
   end
   return scene
 end
