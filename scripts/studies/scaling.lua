@@ -11,6 +11,7 @@
 local n <const>, runs <const>, ranks <const> = tonumber(arg[1]) or 32, tonumber(arg[2]) or 3, tonumber(arg[3]) or 2
 local program <const> = io.popen("readlink /proc/$PPID/exe"):read "l"
 local here <const> = arg[0]:match "(.*/)" or "./"
+local median <const> = include "../lib/punch_scenes.lua".median
 
 local child <const> = os.tmpname()
 do
@@ -70,10 +71,6 @@ for _ = 1, runs do
 end
 os.remove(child)
 
-local function median(values)
-  table.sort(values)
-  return (values[(#values + 1) // 2] + values[#values // 2 + 1]) / 2
-end
 local alone <const> = cases[1].last
 assert(math.abs(cases[2].last.energy / alone.energy - 1) < 1e-9, "the answer depends on the number of processes")
 print(("%d processes, medians of %d runs"):format(ranks, runs))
@@ -81,6 +78,6 @@ print "               unknowns  steps  iterations  seconds (least to most)     e
 for _, case in ipairs(cases) do
   local time <const> = median(case.seconds)
   case.median = time
-  print(("%-14s %8d %6d %11d %8.2f (%.2f to %.2f) %18s"):format(case[1], case.last.unknowns, case.last.newton, case.last.cg, time, case.seconds[1],
-    case.seconds[#case.seconds], case.cells and ("%.2f"):format(cases[1].median * case.cells / (ranks * time)) or ""))
+  print(("%-14s %8d %6d %11d %8.2f (%.2f to %.2f) %18s"):format(case[1], case.last.unknowns, case.last.newton, case.last.cg, time,
+    math.min(table.unpack(case.seconds)), math.max(table.unpack(case.seconds)), case.cells and ("%.2f"):format(cases[1].median * case.cells / (ranks * time)) or ""))
 end

@@ -3,22 +3,26 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "mesh/facet_table.hpp"
+
 namespace dotyk::mesh {
 namespace {
 
-/// Node k of between() of a cell, in all cells: cell · between.size() + k. Those of a kind lie between `corners` corners: 2 on an edge, 4 in a face.
-/// By their least corner, ascending by the others where visited.
+/// The nodes between `count` corners each, 2 on an edge or 4 in a face. Node `between[k]` of cell c has the number between.size() · c + k. Cells that share
+/// a node have a number each for it: these have the same corners.
 class Between {
  public:
-  Between(const Mesh& mesh, const ElementTopology& t, std::size_t corners) : mesh_(mesh), t_(t), count_(corners) {
+  Between(const Mesh& mesh, const ElementTopology& t, std::size_t count) : mesh_(mesh), t_(t) {
+    const int each = static_cast<int>(t.between.size());
     of_least_ = Buckets(mesh.node_count(), [&](auto&& put) {
       for (int c = 0; c < mesh.cell_count(); ++c)
-        for (std::size_t k = 0; k < t.between.size(); ++k)
-          if (t.between[k].size() == corners) put(least(c, t.between[k]), c * static_cast<int>(t.between.size()) + static_cast<int>(k));
+        for (int k = 0; k < each; ++k)
+          if (t.between[static_cast<std::size_t>(k)].size() == count) put(corners_of(c * each + k)[0], c * each + k);
     });
   }
 
-  /// Calls visit(number, first) for each number with this least corner; `first` where its corners are not the last one's.
+  /// Calls visit(number, is_new) for each number whose least corner is this one, ascending by their corners; `is_new`: the number visited before, if any,
+  /// has other corners.
   template <class Visit>
   void with_least(int corner, const Visit& visit) {
     found_.clear();
@@ -28,27 +32,17 @@ class Between {
   }
 
  private:
-  int least(int cell, const std::vector<int>& corners) const {
-    const int* nodes = mesh_.cell(cell);
-    int result = nodes[corners[0]];
-    for (const int k : corners) result = std::min(result, nodes[k]);
-    return result;
-  }
-
-  std::array<int, 4> corners_of(int number) const {
-    const int* nodes = mesh_.cell(number / static_cast<int>(t_.between.size()));
-    const std::vector<int>& corners = t_.between[static_cast<std::size_t>(number) % t_.between.size()];
-    std::array<int, 4> result{-1, -1, -1, -1};
-    for (std::size_t i = 0; i < count_; ++i) result[i] = nodes[corners[i]];
-    std::sort(result.begin(), result.begin() + static_cast<std::ptrdiff_t>(count_));
-    return result;
+  FacetTable::Corners corners_of(int number) const {
+    const int* cell = mesh_.cell(number / static_cast<int>(t_.between.size()));
+    int nodes[4], count = 0;
+    for (const int k : t_.between[static_cast<std::size_t>(number) % t_.between.size()]) nodes[count++] = cell[k];
+    return FacetTable::sorted(nodes, count);
   }
 
   const Mesh& mesh_;
   const ElementTopology& t_;
-  std::size_t count_;
-  Buckets of_least_;
-  std::vector<std::pair<std::array<int, 4>, int>> found_;
+  Buckets of_least_;  ///< numbers by their least corner
+  std::vector<std::pair<FacetTable::Corners, int>> found_;
 };
 
 }  // namespace
@@ -65,12 +59,12 @@ Mesh second_order(Mesh first, Monitor* watch) {
     std::copy_n(first.cell(c), t.corners, mesh.cells.begin() + static_cast<std::ptrdiff_t>(c) * t.nodes);
 
   const int own = first.node_count(), each = static_cast<int>(t.between.size());
-  std::vector<int> made_by;  // node own + i → the first number that is it
+  std::vector<int> made_by;  // of each new node a number, as Between counts them
   const auto place = [&](int number, bool is_new) {
     if (is_new) made_by.push_back(number);
     mesh.cells[static_cast<std::size_t>(number / each) * t.nodes + t.corners + number % each] = own + static_cast<int>(made_by.size()) - 1;
   };
-  if (t.between.back().size() == 8)
+  if (t.between.back().size() == 8)  // a hexahedron's centre, which no other cell shares
     for (int c = 0; c < first.cell_count(); ++c) place(c * each + each - 1, true);
   for (const std::size_t corners : {2, 4}) {
     Between between(first, t, corners);
@@ -121,7 +115,7 @@ PieceCorners tensor_pieces(int dimension) {
           {26, 21, 18, 23, 25, 13, 6, 14}, {20, 26, 23, 19, 15, 25, 14, 7}};
 }
 
-/// The facet of a piece of the cell, {piece, facet}, that has these corners, nodes of the whole cell.
+/// Which facet of which piece of a cell has these corners. They are local nodes of the whole cell; Facet::cell is the piece.
 Facet facet_of_pieces(const ElementTopology& piece, const PieceCorners& pieces, const std::vector<int>& corners) {
   for (std::size_t p = 0; p < pieces.size(); ++p)
     for (int f = 0; f < piece.facets; ++f) {

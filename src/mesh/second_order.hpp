@@ -7,7 +7,7 @@ namespace dotyk::mesh {
 
 /// The same cells of order 2, straight: the mesh's nodes, then one in the middle of each edge, quadrilateral face and
 /// tensor cell. Parts stay. A mesh of order 2 is returned as it is.
-/// `watch`: asked meanwhile whether to stop; Interrupted is thrown then.
+/// `watch` is asked again and again whether to stop. If so, Interrupted is thrown.
 Mesh second_order(Mesh mesh, Monitor* watch = nullptr);
 
 /// second_order() where the family is of that order, else the mesh.
