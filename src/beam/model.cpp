@@ -144,8 +144,7 @@ class Builder {
   problem::Block block(int n) {
     problem::Block block;
     block.name = "beam";
-    block.K = SparseMatrix(n, n);
-    block.K.setFromTriplets(K_.begin(), K_.end());
+    block.K = algebra::from_triplets(n, n, K_);
     block.f = f_;
     block.offset = offset_;
     block.kernel = DenseMatrix(n, 2);

@@ -247,7 +247,8 @@ std::vector<double> internal_force(const Mesh& mesh, const MaterialField& materi
   std::vector<double> force(u.size(), 0.0);
   const int dim = mesh.dimension();
   dispatch(mesh.element, [&]<class E>() {
-    for_each_stiffness<E>(mesh, material, [](int) { return true; }, [&](const int* n, const auto& k) {
+    const auto moves = [&](int node) { return std::any_of(u.begin() + node * dim, u.begin() + (node + 1) * dim, [](double x) { return x != 0; }); };
+    for_each_stiffness<E>(mesh, material, moves, [&](const int* n, const auto& k) {
       for (int a = 0; a < E::nodes; ++a)
         for (int b = 0; b < E::nodes; ++b)
           for (int i = 0; i < E::dim; ++i)

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "algebra/types.hpp"
+#include "base/lists.hpp"
 
 namespace dotyk::elasticity {
 
@@ -42,6 +43,10 @@ class MaterialField {
   explicit MaterialField(const Hooke& uniform) : uniform_(uniform) {}
   MaterialField(std::vector<double> E, std::vector<double> nu, int dimension, Plane plane)
       : E_(std::move(E)), nu_(std::move(nu)), dimension_(dimension), plane_(plane) {}
+
+  /// The field as lists of numbers, and one from such lists.
+  Lists lists() const;
+  explicit MaterialField(const Lists& lists);
 
   bool varies() const { return !E_.empty(); }
   Hooke at(int cell) const {

@@ -5,7 +5,6 @@
 
 #include "algebra/dense/decompositions.hpp"
 #include "algebra/dense/generalised_inverse.hpp"
-#include "algebra/symmetric_product.hpp"
 #include "base/parallel.hpp"
 #include "elasticity/kernel.hpp"
 #include "algebra/dense/dense.hpp"
@@ -126,25 +125,62 @@ struct Motions {
   }
 };
 
-/// FᵀKF, in one pass over K: the sum of F_jᵀ v_j and its transpose, where v_j are the products of K's columns, with half of the diagonal.
-template <int Columns>
-DenseMatrix energies(const SparseMatrix& lower, const ByRows& F) {
-  using Row = Eigen::Matrix<double, 1, Columns>;
-  constexpr Eigen::Index kFew = 1'000'000;  // entries, for a thread
-  const int threads = threads_for(lower.nonZeros(), kFew);
-  std::vector<DenseMatrix> half(static_cast<std::size_t>(threads));
-  parallel_ranges(static_cast<int>(lower.cols()), threads, [&](int k, int first, int end) {
-    Eigen::Matrix<double, Columns, Columns> sum = Eigen::Matrix<double, Columns, Columns>::Zero();
-    const auto row = [&](Eigen::Index i) { return Eigen::Map<const Row>(F.data() + i * Columns); };
-    for (int j = first; j < end; ++j) {
-      Row product = Row::Zero();
-      for (SparseMatrix::InnerIterator it(lower, j); it; ++it) product += (it.row() == j ? 0.5 : 1) * it.value() * row(it.row());
-      sum += row(j).transpose() * product;
+/// FᵀKF, in one pass over the cells. Motions that are rigid on a cell do no work there, and a dilatation strains all of it alike: only cells with prescribed
+/// components, where F is zero, need their matrices.
+template <class E>
+DenseMatrix energies(const mesh::Mesh& mesh, const MaterialField& material, const std::vector<FacetSpring>& springs, const Numbering& numbering, const Motions& motions) {
+  constexpr int d = E::dim, count = (d == 2 ? 3 : 6) + 1;
+  using Square = Eigen::Matrix<double, count, count>;
+  using Row = Eigen::Matrix<double, 1, count>;
+  const auto at = [&](int node, int i) -> Row {
+    const int unknown = numbering.unknown[static_cast<std::size_t>(node) * d + i];
+    return unknown < 0 ? Row(Row::Zero()) : Row(motions.F.row(unknown));
+  };
+  constexpr int kFew = 50'000;  // cells, for a thread
+  const int threads = threads_for(mesh.cell_count(), kFew);
+  std::vector<Square> sums(static_cast<std::size_t>(threads), Square::Zero());
+  parallel_ranges(mesh.cell_count(), threads, [&](int thread, int first, int end) {
+    double x[E::nodes][d], g[E::nodes][d], k[E::nodes][E::nodes][d][d];
+    Hooke hooke = material.at(0);
+    Square& sum = sums[thread];
+    for (int c = first; c < end; ++c) {
+      const int* n = mesh.cell(c);
+      if (material.varies()) hooke = material.at(c);
+      cell_coordinates<E>(mesh, c, x);
+      const bool free = std::all_of(n, n + E::nodes, [&](int node) {
+        const int* unknown = &numbering.unknown[static_cast<std::size_t>(node) * d];
+        return std::all_of(unknown, unknown + d, [](int u) { return u >= 0; });
+      });
+      if (free) {
+        double volume = 0, dilated = 0;
+        for (int q = 0; q < E::points; ++q) volume += physical_gradient<E>(x, E::point(q), g) * E::weight(q);
+        for (int i = 0; i < d; ++i)
+          for (int j = 0; j < d; ++j) dilated += hooke.c[i][i][j][j];
+        sum(count - 1, count - 1) += volume * dilated / (motions.frame.size * motions.frame.size);
+        continue;
+      }
+      stiffness<E>(x, hooke, k);
+      Eigen::Matrix<double, E::nodes * d, E::nodes * d> whole;
+      Eigen::Matrix<double, E::nodes * d, count> F;
+      for (int a = 0; a < E::nodes; ++a)
+        for (int i = 0; i < d; ++i) {
+          F.row(a * d + i) = at(n[a], i);
+          for (int b = 0; b <= a; ++b)
+            for (int j = 0; j < d; ++j) whole(a * d + i, b * d + j) = whole(b * d + j, a * d + i) = k[a][b][i][j];
+        }
+      sum += F.transpose() * (whole * F);
     }
-    half[k] = sum;
   });
-  for (int k = 1; k < threads; ++k) half[0] += half[k];
-  return half[0] + half[0].transpose();
+  for (int k = 1; k < threads; ++k) sums[0] += sums[k];
+  for (const FacetSpring& spring : springs)
+    for_each_facet_point(mesh, spring.facet, [&](const FacetPoint& p) {
+      for (int i = 0; i < d; ++i) {
+        Row moved = Row::Zero();
+        for (int a = 0; a < p.nodes; ++a) moved += p.shape[a] * at(mesh.facet_node(spring.facet, a), i);
+        sums[0] += spring.stiffness[p.index][i] * p.measure * moved.transpose() * moved;
+      }
+    });
+  return sums[0];
 }
 
 /// The least Rayleigh quotient (K, M) on the span of V; infinite where V is nothing.
@@ -197,8 +233,8 @@ ByRows lost_in_rounding(const Motions& motions, const mesh::Mesh& mesh, const Nu
 
 }  // namespace
 
-WeakMotions weak_motions(const mesh::Mesh& mesh, const Numbering& numbering, const SparseMatrix& lower,
-                         const DenseMatrix& kernel) {
+WeakMotions weak_motions(const mesh::Mesh& mesh, const MaterialField& material, const std::vector<FacetSpring>& springs, const Numbering& numbering,
+                         const algebra::SymmetricMatrix& K, const DenseMatrix& kernel) {
   const int all = mesh.dimension() == 2 ? 3 : 6;
   if (numbering.count() == 0 || kernel.cols() == all) return {};
   const Motions motions(mesh, numbering);
@@ -207,14 +243,14 @@ WeakMotions weak_motions(const mesh::Mesh& mesh, const Numbering& numbering, con
   if (kernel.cols() > 0) gram -= algebra::product(motions.inner(motions.rigid(), fixed), motions.in_kernel(fixed, motions.rigid()));
   const DenseMatrix T = orthonormal_combinations(gram, 1e-12);  // less what is in the kernel, or nothing on these unknowns
   if (T.cols() == 0) return {};
-  const DenseMatrix E = all == 3 ? energies<4>(lower, motions.F) : energies<7>(lower, motions.F);
+  const DenseMatrix E = dispatch(mesh.element, [&]<class Element>() { return energies<Element>(mesh, material, springs, numbering, motions); });
   const algebra::Eigenpairs trial = algebra::eigenpairs(algebra::product(T.transpose(), algebra::product(E.topLeftCorner(all, all), T)));
   const double own = E(all, all) / motions.inner(motions.dilatation(), motions.dilatation())(0, 0);
   if (!std::isfinite(own) || !(trial.values[0] < kSuspicious * own)) return {};
   const ByRows Q = motions.without(fixed, combined(motions.rigid(), T));
-  const ByRows lost = lost_in_rounding(motions, mesh, numbering, lower, combined(Q, trial.vectors));
+  const ByRows lost = lost_in_rounding(motions, mesh, numbering, K, combined(Q, trial.vectors));
   if (lost.cols() > 0) return {0, motions.named(lost)};
-  return by_response(motions, Q, numbering, lower, kernel);
+  return by_response(motions, Q, numbering, K, kernel);
 }
 
 }  // namespace dotyk::elasticity

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "algebra/types.hpp"
+#include "algebra/symmetric_matrix.hpp"
 #include "base/motion.hpp"
 #include "elasticity/assembly.hpp"
 #include "mesh/mesh.hpp"
@@ -27,10 +27,10 @@ struct WeakMotions {
 /// own size, so that the statement of small displacements has lost its meaning, and six digits of the
 /// deformation are lost beside the rigid part.
 ///
-/// Cost: one pass over K compares the least Rayleigh quotient of rigid motions, an upper bound of the supports' stiffness, with that of a dilatation.
+/// Cost: one pass over the cells compares the least Rayleigh quotient of rigid motions, an upper bound of the supports' stiffness, with that of a dilatation.
 /// Only where their ratio is below 1e-3 there follow one factorisation of K and twice as many solutions as motions are held.
-/// `lower`: K on the unknowns; `kernel`: its exact rigid modes, unknowns × modes.
-WeakMotions weak_motions(const mesh::Mesh& mesh, const Numbering& numbering, const algebra::SparseMatrix& lower,
-                         const algebra::DenseMatrix& kernel);
+/// `K`: on the unknowns; `kernel`: its exact rigid modes, unknowns × modes.
+WeakMotions weak_motions(const mesh::Mesh& mesh, const MaterialField& material, const std::vector<FacetSpring>& springs, const Numbering& numbering,
+                         const algebra::SymmetricMatrix& K, const algebra::DenseMatrix& kernel);
 
 }  // namespace dotyk::elasticity

@@ -8,17 +8,35 @@
 
 namespace dotyk::mesh {
 
+namespace {
+
+/// Gives the nodes of the cells, numbered as in a mesh of so many nodes, numbers of their own.
+void number_nodes(int nodes_of_whole, Submesh& piece) {
+  std::vector<int>& cells = piece.mesh.cells;
+  constexpr std::size_t kLarge = 16;  // a piece of more than such a part of the mesh: to look at all nodes is faster than to sort its own
+  if (kLarge * cells.size() < static_cast<std::size_t>(nodes_of_whole)) {
+    piece.node = cells;
+    std::sort(piece.node.begin(), piece.node.end());
+    piece.node.erase(std::unique(piece.node.begin(), piece.node.end()), piece.node.end());
+    for (int& n : cells) n = static_cast<int>(std::lower_bound(piece.node.begin(), piece.node.end(), n) - piece.node.begin());
+    return;
+  }
+  std::vector<int> number(static_cast<std::size_t>(nodes_of_whole), -1);
+  for (const int n : cells) number[n] = 0;
+  for (int n = 0; n < nodes_of_whole; ++n)
+    if (number[n] == 0) number[n] = static_cast<int>(piece.node.size()), piece.node.push_back(n);
+  for (int& n : cells) n = number[n];
+}
+
+}  // namespace
+
 Submesh submesh(const Mesh& whole, std::vector<int> cells) {
   Submesh piece;
   piece.mesh.element = whole.element;
   const int per_cell = whole.topology().nodes, dim = whole.dimension();
   piece.mesh.cells.reserve(cells.size() * per_cell);
   for (const int c : cells) piece.mesh.cells.insert(piece.mesh.cells.end(), whole.cell(c), whole.cell(c) + per_cell);
-  piece.node = piece.mesh.cells;
-  std::sort(piece.node.begin(), piece.node.end());
-  piece.node.erase(std::unique(piece.node.begin(), piece.node.end()), piece.node.end());
-  for (int& n : piece.mesh.cells)
-    n = static_cast<int>(std::lower_bound(piece.node.begin(), piece.node.end(), n) - piece.node.begin());
+  number_nodes(whole.node_count(), piece);
   piece.mesh.coordinates.reserve(piece.node.size() * dim);
   for (const int n : piece.node)
     piece.mesh.coordinates.insert(piece.mesh.coordinates.end(), whole.node(n), whole.node(n) + dim);

@@ -82,9 +82,13 @@ class HalfMatrix {
   }
   /// The number at a row and a column of a block.
   double entry(const double* block, Read read, int r, int c) const { return block[read == Read::transposed ? c * rows_.block + r : r * rows_.block + c]; }
-  /// The same as each_block(), with numbers to be changed, of the blocks that are stored with the node: none is transposed.
+  /// The same of the blocks that are stored with the node, whose numbers may be changed: none is transposed.
   template <class Visit>
   void each_own_block(int node, const Visit& visit) {
+    each_stored(*this, node, visit);
+  }
+  template <class Visit>
+  void each_own_block(int node, const Visit& visit) const {
     each_stored(*this, node, visit);
   }
   const std::vector<int>& others() const { return others_; }  ///< nodes of other ranks, ascending
@@ -117,6 +121,11 @@ class HalfMatrix {
         }
         add(node * n + r, sum);
       }
+  }
+  /// A vector of own rows at others(). Collective.
+  const std::vector<double>& theirs(const double* x) {
+    if (!ranks_.alone()) fetch(x);
+    return theirs_;
   }
   const std::vector<std::vector<int>>& asked() const { return asked_; }  ///< by rank the own nodes that are among its others()
   const std::vector<int>& border() const { return border_; }  ///< own nodes that are coupled to others(), ascending

@@ -52,7 +52,13 @@ std::unique_ptr<algebra::SpdSolver> make_solver(const Matrix& matrix, Monitor& m
   return std::unique_ptr<algebra::SpdSolver>(make(matrix, monitor));
 }
 
-void work_for_rank_0(bool spawned) { door<void(bool)>("dotyk_multigrid_work")(spawned); }
+bool several_ranks_have_work_for(double unknowns) { return is_open && door<bool(double)>("dotyk_multigrid_share")(unknowns); }
+
+std::shared_ptr<const algebra::SlicedMatrix> make_slices(const Shared& matrix) {
+  return std::shared_ptr<const algebra::SlicedMatrix>(door<algebra::SlicedMatrix*(const Shared&)>("dotyk_multigrid_slices")(matrix));
+}
+
+void work_for_rank_0(bool spawned, Assemble assemble) { door<void(bool, Assemble)>("dotyk_multigrid_work")(spawned, assemble); }
 
 namespace {
 

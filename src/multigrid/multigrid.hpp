@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "algebra/spd_solver.hpp"
-#include "algebra/types.hpp"
+#include "algebra/symmetric_matrix.hpp"
 #include "base/monitor.hpp"
 
 namespace dotyk::multigrid {
@@ -34,6 +34,8 @@ struct Matrix {
   algebra::StoredMatrix* coarser = nullptr;
   /// Other numbers of some entries, as for set(), with which `lower` is positive definite; null: none.
   const algebra::Triplets* changed = nullptr;
+  /// The matrix as the ranks have it, by make_slices() from the same `node` and `coarse`; `lower` has no numbers then. Null: `lower` is the matrix.
+  const algebra::SlicedMatrix* slices = nullptr;
   /// solve() gives up when its rate of convergence foretells that twelve digits will take so many more.
   double most_iterations = std::numeric_limits<double>::infinity();
 };

@@ -54,12 +54,13 @@ std::vector<int> numbers_by_rank(const std::vector<int>& rank, int ranks, std::v
   return number;
 }
 
+constexpr int kEnough = 100;  ///< nodes for each rank, so that shares are alike
+
 /// The ranks of the nodes of all levels.
 class Sharing {
  public:
   /// `first`: unknown of each node, and the number of all.
   Sharing(const Matrix& matrix, const std::vector<int>& first, int ranks) : matrix_(matrix), first_(first), ranks_(ranks) {
-    constexpr int kEnough = 100;  // nodes for each rank, so that shares are alike
     const int meshes = matrix.coarse ? static_cast<int>(matrix.coarse->size()) : 0;
     for (int l = 0; l <= meshes; ++l) of_.emplace_back(static_cast<std::size_t>(nodes(l)), 0);
     if (ranks == 1) return;
@@ -173,6 +174,10 @@ Numbering::Numbering(const Matrix& matrix, int ranks) {
       for (int k = 0; k < matrix.dimension; ++k) rows.push_back(n * matrix.dimension + k);
     for (int& f : first_[l]) f *= matrix.dimension;
   }
+}
+
+bool Numbering::shares_by_functions(const std::vector<algebra::SparseRows>& coarse, int dimension, int ranks) {
+  return !coarse.empty() && coarse.front().cols() / dimension >= kEnough * ranks;
 }
 
 int Numbering::rank_of(int row) const {

@@ -14,6 +14,8 @@ namespace dotyk::multigrid {
 class Numbering {
  public:
   Numbering(const Matrix& matrix, int ranks);
+  /// Has a coarser mesh enough nodes? Else the nodes of the finest are shared out by the pattern of the matrix.
+  static bool shares_by_functions(const std::vector<algebra::SparseRows>& coarse, int dimension, int ranks);
 
   int block() const { return block_; }                                   ///< of the finest level
   const std::vector<int>& slot() const { return slot_; }                 ///< row of each unknown

@@ -8,28 +8,24 @@
 #include "base/text.hpp"
 #include "multigrid/changes.hpp"
 #include "multigrid/cycle.hpp"
-#include "multigrid/workers.hpp"
+#include "multigrid/rank_slices.hpp"
 
 namespace dotyk::multigrid {
 
 namespace {
-
-std::mutex& only_one() {
-  static std::mutex mutex;
-  return mutex;
-}
 
 /// The solver as rank 0 has it. The other ranks have a Cycle each, and do what this one tells them.
 class PetscSolver final : public algebra::SpdSolver {
  public:
   PetscSolver(const Matrix& matrix, Monitor& monitor)
       : monitor_(monitor), most_(matrix.most_iterations), geometric_(matrix.coarse), workers_(workers_for(static_cast<double>(matrix.lower.rows()))),
-        numbering_(matrix, workers_.ranks().count()), sharing_(sharing_unknowns(matrix)) {
+        slices_(static_cast<const RankSlices*>(matrix.slices)),
+        numbering_(slices_ ? slices_->numbering() : std::make_shared<const Numbering>(matrix, workers_.ranks().count())), sharing_(sharing_unknowns(matrix)) {
     const Ranks& ranks = workers_.ranks();
-    const Pieces pieces(matrix, numbering_);
+    const Pieces pieces(matrix, *numbering_);
     ranks.together([&] {
       std::vector<Change> first(static_cast<std::size_t>(ranks.count()));
-      if (matrix.changed) first = changes(*matrix.changed, {}, {}, numbering_, ranks.count());
+      if (matrix.changed) first = changes(*matrix.changed, {}, {}, *numbering_, ranks.count());
       Piece own = share_out(pieces, first);
       const bool tells = own.tells_coarser;
       cycle_ = std::make_unique<Cycle>(ranks, std::move(own), first[0]);
@@ -50,11 +46,11 @@ class PetscSolver final : public algebra::SpdSolver {
 
   bool set(const algebra::Triplets& changed, const std::vector<char>& held) override {
     monitor_.check();
-    if (held.size() != numbering_.slot().size()) throw std::runtime_error("multigrid: the matrix has another size than the one that the solver was made for");
+    if (held.size() != numbering_->slot().size()) throw std::runtime_error("multigrid: the matrix has another size than the one that the solver was made for");
     const std::lock_guard lock(only_one());
     const Ranks& ranks = workers_.ranks();
     return ranks.together([&] {
-      std::vector<Change> of = changes(changed, held, sharing_, numbering_, ranks.count());
+      std::vector<Change> of = changes(changed, held, sharing_, *numbering_, ranks.count());
       workers_.tell(Task::set);
       for (int r = 1; r < ranks.count(); ++r) send(ranks, r, of[r]);
       return cycle_->set(of[0]);
@@ -62,7 +58,7 @@ class PetscSolver final : public algebra::SpdSolver {
   }
 
   algebra::Vector solve(const algebra::Vector& b, double tolerance, algebra::Vector* left) override {
-    const std::vector<int>& slot = numbering_.slot();
+    const std::vector<int>& slot = numbering_->slot();
     algebra::Vector x = algebra::Vector::Constant(static_cast<Eigen::Index>(slot.size()), std::numeric_limits<double>::quiet_NaN());
     if (b.size() != x.size()) throw std::runtime_error(text("a right-hand side of ", b.size(), " numbers for ", x.size(), " unknowns"));
     const std::lock_guard lock(only_one());
@@ -102,17 +98,19 @@ class PetscSolver final : public algebra::SpdSolver {
       parallel_for(static_cast<int>(some.size()), [&](int k) { some[k] = pieces.of(from + k); });
       if (from == 0) workers_.tell(Task::make);
       for (Piece& piece : some) {
+        if (slices_) piece.slices = slices_->number();
         if (from == 0) own = std::move(piece);
         else send(ranks, from, piece), send(ranks, from, first[from]);
         piece = {}, ++from;
       }
     }
+    if (slices_) own.matrix = slices_->own();
     return own;
   }
   /// Of all ranks, by the numbers of Numbering.
   Cycle::Solution solve_together(const algebra::Vector& b, double tolerance) {
     const Ranks& ranks = workers_.ranks();
-    const std::vector<int>&first = numbering_.first(0), &slot = numbering_.slot();
+    const std::vector<int>&first = numbering_->first(0), &slot = numbering_->slot();
     std::vector<double> all(static_cast<std::size_t>(first.back()), 0.0);
     for (std::size_t i = 0; i < slot.size(); ++i) all[slot[i]] = b[static_cast<Eigen::Index>(i)];
     workers_.tell(Task::solve);
@@ -136,7 +134,8 @@ class PetscSolver final : public algebra::SpdSolver {
   const double most_;  // iterations
   const bool geometric_;
   Workers workers_;
-  const Numbering numbering_;
+  const RankSlices* const slices_;  // of the matrix that it is made from, until it is made; null: none
+  const std::shared_ptr<const Numbering> numbering_;
   const std::set<int> sharing_;
   std::unique_ptr<Cycle> cycle_;
   int iterations_ = 0;
@@ -160,4 +159,11 @@ DOTYK_DOOR void dotyk_multigrid_meet() { dotyk::multigrid::meet_workers(); }
 DOTYK_DOOR void dotyk_multigrid_end_ranks() { dotyk::multigrid::end_workers(); }
 DOTYK_DOOR void dotyk_multigrid_spawn(int ranks, const char* program) { dotyk::multigrid::spawn_workers(ranks, program); }
 DOTYK_DOOR int dotyk_multigrid_ranks() { return dotyk::multigrid::ranks_now(); }
-DOTYK_DOOR void dotyk_multigrid_work(bool spawned) { dotyk::multigrid::work(spawned); }
+DOTYK_DOOR void dotyk_multigrid_work(bool spawned, dotyk::multigrid::Assemble assemble) { dotyk::multigrid::work(spawned, assemble); }
+DOTYK_DOOR bool dotyk_multigrid_share(double unknowns) { return dotyk::multigrid::several_ranks_have_work(unknowns); }
+DOTYK_DOOR dotyk::algebra::SlicedMatrix* dotyk_multigrid_slices(const dotyk::multigrid::Shared& matrix) {
+  using namespace dotyk::multigrid;
+  if (!Numbering::shares_by_functions(matrix.coarse, matrix.dimension, ranks_now())) return nullptr;
+  const std::lock_guard lock(only_one());
+  return new RankSlices(matrix);
+}

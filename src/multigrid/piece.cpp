@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "algebra/entries_of.hpp"
-#include "base/parallel.hpp"
+#include "multigrid/own_rows.hpp"
 
 namespace dotyk::multigrid {
 
@@ -22,19 +22,6 @@ struct Range {
 };
 
 Range range_of(int rank, const Numbering& numbering, int level) { return {numbering.first(level)[rank], numbering.first(level)[rank + 1]}; }
-
-/// Sorts the entries of rows, or columns, first … last − 1 by their indices.
-void sort_entries(const int* starts, int first, int last, int* indices, double* values) {
-  std::vector<std::pair<int, double>> one;
-  for (int i = first; i < last; ++i) {
-    const int begin = starts[i], end = starts[i + 1];
-    if (std::is_sorted(indices + begin, indices + end)) continue;
-    one.clear();
-    for (int k = begin; k < end; ++k) one.emplace_back(indices[k], values[k]);
-    std::ranges::sort(one);
-    for (int k = begin; k < end; ++k) std::tie(indices[k], values[k]) = one[k - begin];
-  }
-}
 
 /// Mean of the diagonal. Throws where that is not positive, or no lower triangle's.
 double mean_diagonal(const algebra::SparseMatrix& lower) {
@@ -94,10 +81,10 @@ void visit_all(HalfRows& rows, Visit&& visit) {
 
 template <class Visit>
 void visit_all(Piece& p, Visit&& visit) {
-  std::vector<int> sizes{p.block, p.dimension, p.motions, p.tells_coarser, static_cast<int>(p.functions.size())};
+  std::vector<int> sizes{p.block, p.dimension, p.motions, p.tells_coarser, p.slices, static_cast<int>(p.functions.size())};
   visit(sizes);
-  p.block = sizes[0], p.dimension = sizes[1], p.motions = sizes[2], p.tells_coarser = sizes[3];
-  p.functions.resize(static_cast<std::size_t>(sizes[4]));
+  p.block = sizes[0], p.dimension = sizes[1], p.motions = sizes[2], p.tells_coarser = sizes[3], p.slices = sizes[4];
+  p.functions.resize(static_cast<std::size_t>(sizes[5]));
   visit(p.own);
   visit_all(p.matrix, visit), visit_all(p.displaced, visit);
   for (Rows& functions : p.functions) visit_rows(functions, visit);
@@ -124,7 +111,7 @@ bool aggregates_follow(double coarsest_unknowns, double finest_unknowns) { retur
 Pieces::Pieces(const Matrix& matrix, const Numbering& numbering) : matrix_(matrix), numbering_(numbering) {
   if (!matrix.lower.isCompressed() || static_cast<std::size_t>(matrix.lower.rows()) != matrix.node.size())
     throw std::runtime_error("multigrid: the matrix is not compressed, or nodes are not given for each unknown");
-  finest_ = source(matrix.lower);
+  if (!matrix.slices) finest_ = source(matrix.lower);
   const int meshes = matrix.coarse ? static_cast<int>(matrix.coarse->size()) : 0;
   if (meshes == 0 || aggregates_follow(numbering.first(meshes).back(), numbering.first(0).back())) near_kernel_ = matrix.near_kernel();
   if (!matrix.displaced) return;
@@ -132,11 +119,7 @@ Pieces::Pieces(const Matrix& matrix, const Numbering& numbering) : matrix_(matri
   else displaced_ = source(*matrix.displaced);
 }
 
-Pieces::Source Pieces::source(const algebra::SparseMatrix& lower) const {
-  std::vector<int> node = numbering_.slot();
-  for (int& row : node) row /= numbering_.block();
-  return {&lower, std::move(node), mean_diagonal(lower)};
-}
+Pieces::Source Pieces::source(const algebra::SparseMatrix& lower) const { return {&lower, mean_diagonal(lower)}; }
 
 namespace {
 
@@ -170,87 +153,19 @@ algebra::StoredMatrix Pieces::coarser(const std::vector<HalfRows>& of_ranks) con
   int count = 0;
   for (std::size_t k = 0; k < used.size(); ++k)
     if (used[k]) place[numbering_.functions(1)[k]] = count++;
-  const auto each = [&](auto&& visit) {  // each thread has columns of its own
-    const int threads = threads_for(count, 10'000);
-    parallel_ranges(count, threads, [&](int, int first, int end) {
-      for (const HalfRows& rows : of_ranks)
-        each_lower(rows, place, [&](int row, int column, double number) {
-          if (column >= first && column < end) visit(row, column, number);
-        });
-    });
-  };
-  algebra::StoredMatrix lower;
-  lower.resize(count, count);
-  int* starts = lower.outerIndexPtr();
-  each([&](int, int column, double) { ++starts[column + 1]; });
-  std::partial_sum(starts, starts + count + 1, starts);
-  lower.resizeNonZeros(starts[count]);
-  std::vector<int> next(starts, starts + count);
-  each([&](int row, int column, double number) {
-    lower.innerIndexPtr()[next[column]] = row;
-    lower.valuePtr()[next[column]++] = number;
+  return lower_triangle(count, [&](int first, int end, auto&& visit) {
+    for (const HalfRows& rows : of_ranks)
+      each_lower(rows, place, [&](int row, int column, double number) {
+        if (column >= first && column < end) visit(row, column, number);
+      });
   });
-  constexpr Eigen::Index kFew = 1'000'000;  // entries, for a thread
-  parallel_ranges(count, threads_for(lower.nonZeros(), kFew),
-                  [&](int, int first, int end) { sort_entries(starts, first, end, lower.innerIndexPtr(), lower.valuePtr()); });
-  return lower;
 }
-
-namespace {
-
-/// Does a column have the rows of the column before it, without the first of these? Most components of a node do.
-bool as_before(const algebra::SparseMatrix& lower, int j) {
-  const int *begin = lower.outerIndexPtr() + j, *rows = lower.innerIndexPtr();
-  return begin[0] - begin[-1] == begin[1] - begin[0] + 1 && std::equal(rows + begin[0], rows + begin[1], rows + begin[-1] + 1);
-}
-
-}  // namespace
 
 HalfRows Pieces::rows_of(int rank, const Source& source) const {
   if (!source.lower) return {};
-  const algebra::SparseMatrix& lower = *source.lower;
-  const std::vector<int>&slot = numbering_.slot(), &node = source.node;
   const int block = numbering_.block(), first = numbering_.first(0)[rank] / block, count = numbering_.first(0)[rank + 1] / block - first;
-  const auto is_own = [&](int node) { return node >= first && node < first + count; };
-  std::vector<char> met(static_cast<std::size_t>(lower.cols()), 0);  // columns of nodes with an entry that is this rank's, by their first column
-  HalfRows rows = room_for(block, first, count, [&](auto&& visit) {
-    for (int j = 0, begin = 0; j < lower.cols(); ++j) {
-      if (node[j] != node[begin]) begin = j;
-      if (j > begin && as_before(lower, j)) continue;
-      const bool own = is_own(node[j]);
-      bool meets = own;
-      for (int k = lower.outerIndexPtr()[j]; k < lower.outerIndexPtr()[j + 1]; ++k) {
-        const int row = node[lower.innerIndexPtr()[k]];
-        if (own || is_own(row)) visit(row, node[j]), meets = true;
-      }
-      if (meets) met[begin] = 1;
-    }
-  });
-  std::vector<HalfRows::Place> places;  // of a node's columns
-  for (int begin = 0, end; begin < lower.cols(); begin = end) {
-    const int column = node[begin];
-    for (end = begin + 1; end < lower.cols() && node[end] == column;) ++end;
-    if (!met[begin]) continue;
-    places.clear();
-    for (int j = begin; j < end; ++j) {
-      const int c = slot[j] - column * block;
-      std::size_t at = 0;
-      for (int k = lower.outerIndexPtr()[j], row; k < lower.outerIndexPtr()[j + 1];) {
-        row = node[lower.innerIndexPtr()[k]];
-        while (at < places.size() && places[at].row != row) ++at;
-        if (at == places.size()) places.push_back(rows.place(row, column));
-        const HalfRows::Place place = places[at];
-        for (; k < lower.outerIndexPtr()[j + 1] && node[lower.innerIndexPtr()[k]] == row; ++k) {
-          if (!place.numbers) continue;
-          const int r = slot[lower.innerIndexPtr()[k]] - row * block;
-          place.at(block, r, c) = lower.valuePtr()[k];
-          if (row == column) place.at(block, c, r) = lower.valuePtr()[k];
-        }
-      }
-    }
-  }
-  for (const int i : numbering_.idle())
-    if (is_own(i / block)) rows.place(i / block, i / block).at(block, i % block, i % block) = source.mean;
+  HalfRows rows = own_rows(*source.lower, numbering_.slot(), block, first, count);
+  fill_idle(rows, numbering_.idle(), source.mean);
   return rows;
 }
 

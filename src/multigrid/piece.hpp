@@ -17,6 +17,7 @@ struct Piece {
   int tells_coarser = 0;         ///< 1: rank 0 asks for the matrix of the next coarser mesh
   std::vector<int> own;          ///< how many rows of each level are this rank's
   HalfRows matrix;               ///< idle rows have the mean of its diagonal
+  int slices = 0;                ///< the number of the slices that `matrix` is taken from; 0: it is given
   std::vector<Rows> functions;   ///< of each coarser mesh
   HalfRows displaced;            ///< as in Matrix, where there are no coarser meshes; idle rows as in `matrix`
   Rows unknowns;                 ///< as in Matrix; idle rows as in the identity. No rows where it has none
@@ -40,7 +41,6 @@ class Pieces {
   /// A lower triangle of the finest level.
   struct Source {
     const algebra::SparseMatrix* lower = nullptr;
-    std::vector<int> node;        ///< of each row of the triangle, by the numbers of Numbering
     double mean = 0;              ///< of the diagonal
   };
   Source source(const algebra::SparseMatrix& lower) const;

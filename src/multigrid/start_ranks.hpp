@@ -3,6 +3,8 @@
 
 #include <cstdlib>
 
+#include "multigrid/slices.hpp"
+
 namespace dotyk::multigrid {
 
 /// Which of the processes that mpirun started this is, and how many there are: 0 where it was not mpirun.
@@ -18,12 +20,12 @@ inline RankAmong rank_by_mpirun() {
 }
 
 /// For ranks other than 0: works until rank 0 ends. A failure on one rank ends the program on all, with a message and status 1. `spawned`: by
-/// start_ranks(), else by mpirun. All these functions throw InputError where the library was not built.
-void work_for_rank_0(bool spawned);
+/// start_ranks(), else by mpirun. `assemble` makes the rows of slices. All these functions throw InputError where the library was not built.
+void work_for_rank_0(bool spawned, Assemble assemble);
 /// For rank 0 under mpirun: meets the others, and lets them go when the program ends, also by std::exit.
 void meet_ranks();
 
-/// Says that this program, started with the word --worker, calls work_for_rank_0(true).
+/// Says that this program, started with the word --worker, calls work_for_rank_0(true, …).
 void take_word_worker();
 /// Starts other processes of this program on this machine, so that there are `ranks`. Throws InputError where the program does not take the word, where MPI
 /// cannot start them, after the first solution by multigrid, and where there are several ranks already, but not `ranks`.

@@ -10,6 +10,7 @@
 #include "base/text.hpp"
 #include "multigrid/cycle.hpp"
 #include "multigrid/death_watch.hpp"
+#include "multigrid/rank_slices.hpp"
 
 namespace dotyk::multigrid {
 
@@ -68,8 +69,11 @@ std::vector<int> next_task() {
   return task;
 }
 
-std::unique_ptr<Cycle> make() {
+using Slices = std::map<int, std::unique_ptr<Slice>>;
+
+std::unique_ptr<Cycle> make(const Slices& slices) {
   Piece piece = receive_piece(world(), 0);
+  if (piece.slices) piece.matrix = slices.at(piece.slices)->rows();
   const bool tells = piece.tells_coarser;
   auto cycle = std::make_unique<Cycle>(world(), std::move(piece), receive_change(world(), 0));
   if (HalfRows coarser = cycle->take_coarser(); tells) send(world(), 0, coarser);
@@ -94,17 +98,23 @@ void finalise(bool clean) {
 
 }  // namespace
 
-Workers workers_for(double unknowns) {
+bool several_ranks_have_work(double unknowns) {
   constexpr double kShare = 1000;  // unknowns
+  return ranks_now() > 1 && unknowns >= kShare * ranks_now();
+}
+
+Workers workers_for(double unknowns) {
   static int solvers = 0;
-  const bool all = world().count() > 1 && unknowns >= kShare * world().count();
+  const bool all = several_ranks_have_work(unknowns);
   return {all ? world() : Ranks(MPI_COMM_SELF), ++solvers};
 }
 
 void Workers::tell(Task task) const {
-  if (task == Task::drop) --living();
-  for (int r = 1; r < ranks_.count(); ++r) ranks_.send(r, std::vector<int>{static_cast<int>(task), solver_});
+  if (task == Task::drop || task == Task::drop_slice) --living();
+  for (int r = 1; r < ranks_.count(); ++r) tell(task, r);
 }
+
+void Workers::tell(Task task, int rank) const { ranks_.send(rank, std::vector<int>{static_cast<int>(task), solver_}); }
 
 void spawn_workers(int ranks, const std::string& program) {
   if (petsc_started())
@@ -134,7 +144,7 @@ int ranks_now() { return petsc_started() ? world().count() : 1; }
 
 void Workers::made() const { ++living(); }
 
-void work(bool spawned) {
+void work(bool spawned, Assemble assemble) {
   if (spawned) {
     std::signal(SIGINT, SIG_IGN);  // Ctrl-C is for rank 0, which has the terminal
     start_petsc(true);
@@ -144,15 +154,20 @@ void work(bool spawned) {
     join(parent, true);
   }
   std::map<int, std::unique_ptr<Cycle>> cycles;  // outlive an exception: PETSc may crash where it destroys a solver that failed, before the reason is told
-  world().together([&cycles] {
+  Slices slices;
+  world().together([&] {
     for (;;) {
       const std::vector<int> order = next_task();
       const int solver = order[1];
       switch (static_cast<Task>(order[0])) {
-        case Task::make: cycles[solver] = make(); break;
+        case Task::make: cycles[solver] = make(slices); break;
         case Task::set: cycles.at(solver)->set(receive_change(world(), 0)); break;
         case Task::solve: solve(*cycles.at(solver)); break;
         case Task::drop: cycles.erase(solver); break;
+        case Task::slice: slices[solver] = receive_slice(world(), assemble); break;
+        case Task::multiply: multiply(world(), *slices.at(solver)); break;
+        case Task::some: tell_some(world(), *slices.at(solver)); break;
+        case Task::drop_slice: slices.erase(solver); break;
         case Task::end:
           stop_watching();
           if (!solver)

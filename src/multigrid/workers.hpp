@@ -4,24 +4,29 @@
 #include <string>
 
 #include "multigrid/ranks.hpp"
+#include "multigrid/slices.hpp"
 
 namespace dotyk::multigrid {
 
-enum class Task : int { make, set, solve, drop, end };
+enum class Task : int { make, set, solve, drop, slice, multiply, some, drop_slice, end };
 
-/// How rank 0 tells the other ranks what to do for one solver. The data of a task are sent after it.
+/// How rank 0 tells the other ranks what to do for one solver, or for the slices of one matrix. The data of a task are sent after it.
 class Workers {
  public:
   Workers(const Ranks& ranks, int solver) : ranks_(ranks), solver_(solver) {}
   const Ranks& ranks() const { return ranks_; }
   void tell(Task task) const;
-  void made() const;  ///< the solver lives, until it tells `drop`
+  void tell(Task task, int rank) const;
+  int solver() const { return solver_; }  ///< its number, from 1
+  void made() const;  ///< the solver, or the slices, live, until they tell `drop`
 
  private:
   Ranks ranks_;
-  int solver_;  // its number
+  int solver_;
 };
 
+/// Are there several ranks, and shares of so many unknowns large enough?
+bool several_ranks_have_work(double unknowns);
 /// For a solver of so many unknowns: all ranks, or this one alone where shares would be too small.
 Workers workers_for(double unknowns);
 
@@ -33,7 +38,7 @@ void meet_workers();
 /// How many ranks there are; 1 where MPI has not started.
 int ranks_now();
 /// What ranks other than 0 do: the tasks, until the last. `spawned`: by spawn_workers(), else by mpirun.
-void work(bool spawned);
+void work(bool spawned, Assemble assemble);
 /// Tells them the last. Called once, by rank 0, when nothing more will be solved.
 void end_workers();
 

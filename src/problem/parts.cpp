@@ -63,12 +63,11 @@ namespace {
 /// About ‖|K||w|‖ and rarely less, without a pass over K: no entry is greater than the greatest on the diagonal.
 double size_of_gross_forces(const Block& block, const Vector& w) {
   double greatest = 0;
+  for (int j = 0; j < block.size(); ++j) greatest = std::max(greatest, block.K.diagonal(j));
   int entries = 0;
-  for (int j = 0; j < block.size(); ++j) {
-    const int* outer = block.K.outerIndexPtr() + j;
-    greatest = std::max(greatest, block.K.valuePtr()[*outer]);
-    entries = std::max(entries, 2 * (outer[1] - outer[0]));
-  }
+  if (block.K.slices()) entries = block.K.slices()->most_entries();
+  else
+    for (const int *outer = block.K.lower().outerIndexPtr(), *end = outer + block.size(); outer < end; ++outer) entries = std::max(entries, 2 * (outer[1] - outer[0]));
   return greatest * entries * w.stableNorm();
 }
 
@@ -105,7 +104,7 @@ std::vector<Sizes> sizes(const Problem& problem, const State& state, const Force
     if (part.load > 0) return;
     const Vector u = state.u.segment(block.first, block.size());
     if (half * size_of_gross_forces(block, u) < kBelowForces * part.contact) return;
-    const Vector gross = algebra::gross_product(block.K, u);
+    const Vector gross = block.K.gross_times(u);
     add(part.least_force, half * gross);
     part.least_work += half * gross.dot(u.cwiseAbs());
   });

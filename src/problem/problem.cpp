@@ -4,8 +4,6 @@
 #include <cmath>
 
 #include "algebra/dense/generalised_inverse.hpp"
-#include "algebra/entries_of.hpp"
-#include "algebra/symmetric_product.hpp"
 #include "base/error.hpp"
 #include "base/moderate.hpp"
 #include "base/text.hpp"
@@ -44,11 +42,6 @@ std::vector<const RowGroup*> Problem::group_of_rows() const {
 
 namespace {
 
-double diagonal(const Block& block, int j) {
-  const double* entry = algebra::diagonal_entry(block.K, j);
-  return entry ? *entry : 0;
-}
-
 /// Σ_j B_rj² term(K_jj), row by row.
 template <class Term>
 Vector over_diagonal(const Problem& problem, const Term& term) {
@@ -56,7 +49,7 @@ Vector over_diagonal(const Problem& problem, const Term& term) {
   for (int r = 0; r < problem.rows(); ++r)
     for (SparseRows::InnerIterator it(problem.B, r); it; ++it) {
       const Block& block = problem.blocks[problem.block_of(it.col())];
-      sum[r] += it.value() * it.value() * term(diagonal(block, static_cast<int>(it.col()) - block.first));
+      sum[r] += it.value() * it.value() * term(block.K.diagonal(static_cast<int>(it.col()) - block.first));
     }
   return sum;
 }
@@ -107,7 +100,7 @@ void require_moderate(const Problem& problem, double most_force) {
   double stiffness = 0, force = 0, gap = 0;
   const auto grow = [](double& greatest, double value) { greatest = std::isnan(value) ? INFINITY : std::max(greatest, std::abs(value)); };
   for (const Block& block : problem.blocks) {
-    for (int j = 0; j < block.size(); ++j) grow(stiffness, diagonal(block, j));
+    for (int j = 0; j < block.size(); ++j) grow(stiffness, block.K.diagonal(j));
     for (const double f : block.f) grow(force, f);
   }
   for (const double c : problem.c)
@@ -121,7 +114,7 @@ void require_moderate(const Problem& problem, double most_force) {
 }
 
 void add(Problem& problem, Block block) {
-  require_kernel(block.K, block.kernel, "'" + block.name + "'", block.motions);
+  if (block.kernel.cols() > 0) require_kernel(block.K, block.kernel, "'" + block.name + "'", block.motions);
   block.first = problem.unknowns();
   problem.blocks.push_back(std::move(block));
 }
@@ -135,13 +128,13 @@ bool prescribes(const RowGroup& group) {
 SparseMatrix lower_stiffness(const Problem& problem) {
   if (problem.blocks.size() == 1) return problem.blocks.front().K;
   Eigen::Index entries = 0;
-  for (const Block& block : problem.blocks) entries += block.K.nonZeros();
+  for (const Block& block : problem.blocks) entries += block.K.lower().nonZeros();
   SparseMatrix all(problem.unknowns(), problem.unknowns());
   all.reserve(entries);
   for (const Block& block : problem.blocks)
     for (int j = 0; j < block.size(); ++j) {
       all.startVec(block.first + j);
-      for (SparseMatrix::InnerIterator it(block.K, j); it; ++it) all.insertBack(block.first + it.row(), block.first + j) = it.value();
+      for (SparseMatrix::InnerIterator it(block.K.lower(), j); it; ++it) all.insertBack(block.first + it.row(), block.first + j) = it.value();
     }
   all.finalize();
   return all;
@@ -163,7 +156,7 @@ template <class Numbers>
 Numbers times(const Problem& problem, const Numbers& u) {
   Numbers result(problem.unknowns());
   for (const Block& block : problem.blocks)
-    result.segment(block.first, block.size()) = algebra::symmetric_product(block.K, Eigen::Map<const Numbers>(u.data() + block.first, block.size()));
+    result.segment(block.first, block.size()) = block.K.times(Eigen::Map<const Numbers>(u.data() + block.first, block.size()));
   return result;
 }
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "algebra/types.hpp"
+#include "algebra/symmetric_matrix.hpp"
 #include "base/motion.hpp"
 #include "problem/friction.hpp"
 #include "problem/law.hpp"
@@ -25,7 +25,7 @@ struct CoarseMeshes {
 /// One body's energy ½uᵀKu − fᵀu + offset on its own unknowns.
 struct Block {
   std::string name;
-  algebra::StoredMatrix K;      ///< lower triangle; positive semidefinite
+  algebra::SymmetricMatrix K;   ///< positive semidefinite
   algebra::Vector f;
   double offset = 0;
   std::vector<int> node;        ///< node of each unknown, ascending: what orderings keep together
@@ -129,7 +129,7 @@ std::vector<int> nodes(const Problem& problem);
 algebra::Vector stiffness_times(const Problem& problem, const algebra::Vector& u);
 /// The same in extended precision. Forces of neighbouring cells are differences of terms that are greater by (size/cell)² in a solid, and by its
 /// square in a beam or a plate.
-using LongVector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
+using algebra::LongVector;
 LongVector precise_stiffness_times(const Problem& problem, const LongVector& u);
 /// The same in the precision of u, in a fifth of the time: where the product is small beside what it is subtracted from.
 algebra::Vector rough_stiffness_times(const Problem& problem, const algebra::Vector& u);

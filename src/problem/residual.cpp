@@ -118,7 +118,7 @@ double friction_violation(const Problem& problem, const State& state, const Part
 /// ‖|K||w|‖, w the part of u in the block's kernel.
 double moved_forces(const Block& block, const Vector& u) {
   const algebra::DenseMatrix& R = block.kernel;
-  return algebra::gross_product(block.K, R * algebra::least_squares(R, u)).stableNorm();
+  return block.K.gross_times(R * algebra::least_squares(R, u)).stableNorm();
 }
 
 /// Greatest resultant of the forces on the block that is not balanced, relative to all of them (`gross`) at the longest lever.
@@ -246,7 +246,7 @@ double distance_from_laws(const Problem& problem, const State& state) {
 
 double rounding_of_equilibrium(const Problem& problem, const State& state) {
   const Measured m(problem, state, forces(problem, state));
-  const auto gross = norms(problem, m.parts, [&](const Block& block) { return algebra::gross_product(block.K, state.u.segment(block.first, block.size())); });
+  const auto gross = norms(problem, m.parts, [&](const Block& block) { return block.K.gross_times(state.u.segment(block.first, block.size())); });
   return std::numeric_limits<double>::epsilon() *
          greatest_ratio(gross, [&](std::size_t p) { return m.sizes[p].internal + m.sizes[p].contact + m.sizes[p].load; });
 }
@@ -254,7 +254,7 @@ double rounding_of_equilibrium(const Problem& problem, const State& state) {
 Vector rounding_of_forces(const Problem& problem, const State& state) {
   if (problem.rows() == 0) return {};
   Vector gross(state.u.size());
-  for (const Block& block : problem.blocks) gross.segment(block.first, block.size()) = algebra::gross_product(block.K, state.u.segment(block.first, block.size()));
+  for (const Block& block : problem.blocks) gross.segment(block.first, block.size()) = block.K.gross_times(state.u.segment(block.first, block.size()));
   Vector rounding = std::numeric_limits<double>::epsilon() * (algebra::SparseRows(problem.B.cwiseAbs()) * gross);
   for (int r = 0; r < problem.rows(); ++r)
     if (const double square = problem.B.row(r).squaredNorm(); square > 0) rounding[r] /= square;

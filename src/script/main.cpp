@@ -20,6 +20,7 @@
 
 #include <unistd.h>
 
+#include "elasticity/share.hpp"
 #include "multigrid/start_ranks.hpp"
 #include "script/interpreter.hpp"
 #include "script/prompt/interrupt.hpp"
@@ -204,7 +205,7 @@ int main(int count, char** words) {
     const dotyk::multigrid::RankAmong place = dotyk::multigrid::rank_by_mpirun();
     const bool spawned = count == 2 && std::string(words[1]) == "--worker";  // by dotyk.ranks
     if (place.rank > 0 || spawned) {
-      dotyk::multigrid::work_for_rank_0(spawned);
+      dotyk::multigrid::work_for_rank_0(spawned, dotyk::elasticity::assemble_share);
       return 0;
     }
     dotyk::multigrid::take_word_worker();

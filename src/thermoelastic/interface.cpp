@@ -62,7 +62,7 @@ Interface::Interface(const Model& model, std::vector<int> parts, const std::vect
       rows.add({{static_cast<int>(std::find(gamma.begin(), gamma.end(), held.unknown) - gamma.begin()), -held.turn}}, 0);
     }
   }
-  block.K = DenseMatrix(S.triangularView<Eigen::Lower>()).sparseView();
+  block.K = algebra::SparseMatrix(DenseMatrix(S.triangularView<Eigen::Lower>()).sparseView());
   for (int i = 0; i < n; ++i) block.node.push_back(i);
   problem_.blocks.push_back(std::move(block));  // its kernel is one up to what rounding left of stiff cells in S
   rows.finish({});
@@ -93,7 +93,7 @@ Vector Interface::solve(Vector g, const Vector& resultants, const SupportsDriven
     for (const Held& held : model_.parts[p].held) problem_.c[row++] = -held.given(driven);
   require_solvable(t);
   if (problem_.rows() == 0) {  // no support at all: the load is balanced, and the least solution as good as any
-    const DenseMatrix S = DenseMatrix(problem_.blocks.front().K).selfadjointView<Eigen::Lower>();
+    const DenseMatrix S = DenseMatrix(problem_.blocks.front().K.lower()).selfadjointView<Eigen::Lower>();
     return algebra::MinimumNorm(S).solve(g);
   }
   solver::Result result = solver::solve(problem_, method, {{}, condenser_}, monitor, true);

@@ -276,7 +276,9 @@ TEST_CASE("a block that is not held is refused by name and node") {
   Random random(45);
   Problem p;
   auto block = test::block("lid", test::spring_grid(random, 3, 3, 2, 1), random.vector(18), 2, false);
-  block.K.coeffRef(16, 16) = -1;
+  algebra::SparseMatrix lower = block.K;
+  lower.coeffRef(16, 16) = -1;
+  block.K = lower;
   add(p, block);
   DenseMatrix B = DenseMatrix::Zero(1, 18);
   B(0, 3) = 1;

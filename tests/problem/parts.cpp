@@ -13,7 +13,7 @@ namespace {
 /// A body of one unknown on a spring k, loaded by f.
 problem::Block spring(double k, double f) {
   problem::Block block;
-  block.K = DenseMatrix::Constant(1, 1, k).sparseView();
+  block.K = algebra::SparseMatrix(DenseMatrix::Constant(1, 1, k).sparseView());
   block.f = Vector::Constant(1, f);
   block.kernel.resize(1, 0);
   block.node = {0};

@@ -24,10 +24,10 @@ problem::Problem free_body(test::Random& random, int nodes, int d, double mu) {
   auto p = test::friction_program(random, nodes, d, problem::coulomb(std::vector<double>(nodes, mu)));
   problem::Block& body = p.blocks[0];
   const Vector r = random.vector(body.size()).normalized();
-  DenseMatrix K = DenseMatrix(body.K).selfadjointView<Eigen::Lower>();
+  DenseMatrix K = DenseMatrix(body.K.lower()).selfadjointView<Eigen::Lower>();
   const DenseMatrix P = DenseMatrix::Identity(r.size(), r.size()) - r * r.transpose();
   K = P * K * P;
-  body.K = DenseMatrix(K.triangularView<Eigen::Lower>()).sparseView();
+  body.K = algebra::SparseMatrix(DenseMatrix(K.triangularView<Eigen::Lower>()).sparseView());
   body.kernel = r / r.lpNorm<Eigen::Infinity>();
   return p;
 }

@@ -53,7 +53,7 @@ struct Truss {
     }
     problem::Block block;
     block.name = "truss";
-    block.K = algebra::DenseMatrix(K.triangularView<Eigen::Lower>()).sparseView();
+    block.K = algebra::SparseMatrix(algebra::DenseMatrix(K.triangularView<Eigen::Lower>()).sparseView());
     block.f = Vector::Zero(n);
     for (const auto& [joint, force] : loads)
       for (int a = 0; a < 2; ++a) block.f[unknown(joint, a)] += force[a];

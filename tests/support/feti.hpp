@@ -34,7 +34,7 @@ inline Imbalance imbalance(const scene::Solution& s, int body) {
   const problem::Block& b = p.blocks[body];
   const algebra::Vector u = s.result().state.u.segment(b.first, b.size());
   const algebra::Vector contact = algebra::SparseRows(p.rows_of(b)).transpose() * s.result().state.lambda;
-  const algebra::Vector elastic = b.K.selfadjointView<Eigen::Lower>() * u, left = b.f - contact;
+  const algebra::Vector elastic = b.K.lower().selfadjointView<Eigen::Lower>() * u, left = b.f - contact;
   Imbalance worst;
   const double size = elastic.norm() + contact.norm() + b.f.norm();
   if (size > 0) worst.nodal = (left - elastic).norm() / size;

@@ -10,7 +10,9 @@
 #include "base/text.hpp"
 #include "elasticity/coarse_functions.hpp"
 #include "elasticity/rigid_modes.hpp"
+#include "elasticity/share.hpp"
 #include "elasticity/weak_motions.hpp"
+#include "multigrid/slices.hpp"
 #include "problem/contradiction.hpp"
 #include "scene/model/row_builder.hpp"
 #include "scene/model/subdomains.hpp"
@@ -36,7 +38,7 @@ std::string supports_of(const Body& body) {
 
 /// The entry of Model::nearly_free; lowers `softest`.
 std::string nearly_free(const Body& body, const Numbering& numbering, const problem::Block& block, double& softest) {
-  const auto weak = elasticity::weak_motions(*body.mesh, numbering, block.K, block.kernel);
+  const auto weak = elasticity::weak_motions(*body.mesh, body.material, body.facet_springs(), numbering, block.K, block.kernel);
   if (weak.motions.empty()) return "";
   softest = std::min(softest, weak.stiffness);
   const std::string motions = listed(texts(weak.motions));
@@ -63,21 +65,55 @@ std::vector<std::string> describe_nearly_free(const Scene& scene, const Model& m
 
 namespace {
 
-void add_body(const Body& body, Model& model) {
-  require_memory(2 * elasticity::matrix_bytes(*body.mesh), "the stiffness of '" + body.name + "'");  // and as much while it is made
-  model.numbering.push_back(number(body));
-  const Numbering& numbering = model.numbering.back();
+/// The load of a body's block for its prescribed components as they are now: f and offset as elasticity::assemble.
+void set_load(const Body& body, const Numbering& numbering, problem::Block& block) {
+  const auto held = elasticity::internal_force(*body.mesh, body.material, body.facet_springs(), numbering.prescribed);
+  block.f.resize(numbering.count());
+  block.offset = broken_energy(body);
+  for (std::size_t k = 0; k < held.size(); ++k)
+    if (numbering.unknown[k] >= 0)
+      block.f[numbering.unknown[k]] = body.force[k] - held[k];
+    else
+      block.offset += numbering.prescribed[k] * (0.5 * held[k] - body.force[k]);
+}
+
+/// K in slices; null where one process is to make it.
+std::shared_ptr<const algebra::SlicedMatrix> slices_of_stiffness(const Body& body, const Numbering& numbering) {
+  const mesh::Mesh& mesh = *body.mesh;
+  const int levels = mesh::coarser_count(mesh);
+  if (levels == 0 || !multigrid::several_ranks_have_work_for(numbering.count())) return nullptr;
   const auto springs = body.facet_springs();
-  auto system = elasticity::assemble(*body.mesh, body.material, springs, body.force, numbering);
-  auto rigid = elasticity::rigid_modes(*body.mesh, numbering, springs);
-  problem::Block block;
-  block.name = body.name;
+  return multigrid::make_slices({numbering.node, elasticity::coarse_functions(mesh, numbering.unknown, numbering.count(), levels), mesh.dimension(),
+                                 [&](const std::vector<char>& own) {
+                                   elasticity::Share share = elasticity::share(mesh, body.material, springs, numbering, own);
+                                   return multigrid::Share{std::move(share.lists), std::move(share.unknowns)};
+                                 },
+                                 elasticity::assemble_share});
+}
+
+void assemble(const Body& body, const Numbering& numbering, bool slices, problem::Block& block) {
+  if (slices && block.kernel.cols() == 0)
+    if (auto K = slices_of_stiffness(body, numbering)) {
+      block.K = std::move(K);
+      return set_load(body, numbering, block);
+    }
+  require_memory(2 * elasticity::matrix_bytes(*body.mesh), "the stiffness of '" + body.name + "'");  // and as much while it is made
+  auto system = elasticity::assemble(*body.mesh, body.material, body.facet_springs(), body.force, numbering);
   block.K = std::move(system.K);
   block.f = std::move(system.f);
   block.offset = system.offset + broken_energy(body);
+}
+
+void add_body(const Body& body, bool slices, Model& model) {
+  model.numbering.push_back(number(body));
+  const Numbering& numbering = model.numbering.back();
+  auto rigid = elasticity::rigid_modes(*body.mesh, numbering, body.facet_springs());
+  problem::Block block;
+  block.name = body.name;
   block.node = numbering.node;
   block.kernel = std::move(rigid.modes);
   block.motions = std::move(rigid.motions);
+  assemble(body, numbering, slices, block);
   block.rigid = [mesh = body.mesh, unknown = numbering.unknown, count = numbering.count()] { return elasticity::all_rigid_motions(*mesh, unknown, count); };
   block.coarse = {mesh::coarser_count(*body.mesh), body.mesh->dimension(), [mesh = body.mesh, unknown = numbering.unknown, count = numbering.count()](int levels) {
                     return elasticity::coarse_functions(*mesh, unknown, count, levels);
@@ -117,17 +153,6 @@ std::vector<double> Model::displacement(int body, const algebra::Vector& u) cons
 }
 
 namespace {
-
-/// The load of a body's block for its prescribed components as they are now: f and offset as elasticity::assemble.
-void set_load(const Body& body, const Numbering& numbering, problem::Block& block) {
-  const auto held = elasticity::internal_force(*body.mesh, body.material, body.facet_springs(), numbering.prescribed);
-  block.offset = broken_energy(body);
-  for (std::size_t k = 0; k < held.size(); ++k)
-    if (numbering.unknown[k] >= 0)
-      block.f[numbering.unknown[k]] = body.force[k] - held[k];
-    else
-      block.offset += numbering.prescribed[k] * (0.5 * held[k] - body.force[k]);
-}
 
 /// Refuses an interference at a node that other contacts or supports hold: friction without a bound, for example.
 void require_consistent(const Scene& scene, const problem::Problem& problem) {
@@ -184,13 +209,13 @@ void require_moderate(const problem::Problem& problem, bool cut) {
 }  // namespace
 
 Model build(const Scene& scene, problem::Clock& clock, Monitor& monitor, const Loading& loading,
-            const std::optional<problem::Decomposition>& decomposition) {
+            const std::optional<problem::Decomposition>& decomposition, bool slices) {
   Stopwatch watch;
   Model model;
   for (const auto& body : scene.bodies) {
     monitor.phase(text("assembling '", body->name, "' (", body->mesh->cell_count(), " cells)"));
     model.bodies.push_back(loading.applied_to(*body));
-    add_body(model.bodies.back(), model);
+    add_body(model.bodies.back(), slices && scene.bodies.size() == 1, model);
     monitor.check();
   }
   set_rows(scene, loading, model);

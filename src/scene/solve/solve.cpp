@@ -178,7 +178,7 @@ class History {
 
   void load(const Step& step, Monitor& monitor) {
     loading_.take(step, *scene_);
-    if (!built_) model_ = build(*scene_, clock_, monitor, loading_, method_.decomposition());
+    if (!built_) model_ = build(*scene_, clock_, monitor, loading_, method_.decomposition(), method_.takes_slices());
     if (built_ || (last_ && breaks_)) reload(*scene_, bodies_, loading_, model_, clock_);
     built_ = true;
     if (last_ && last_ == start_.after) require_same_rows(model_, last_->model());
@@ -244,12 +244,10 @@ class History {
 
   /// A copy of the model but for K and subdomains, which the next step needs and no earlier solution does.
   Model without_stiffness() {
-    std::vector<algebra::SparseMatrix> kept;
-    for (problem::Block& block : model_.problem.blocks) kept.push_back(std::exchange(block.K, {}));
     auto subdomains = std::exchange(model_.problem.subdomains, {});
     Model copy = model_;
     model_.problem.subdomains = std::move(subdomains);
-    for (std::size_t b = 0; b < kept.size(); ++b) model_.problem.blocks[b].K = std::move(kept[b]);
+    for (problem::Block& block : copy.problem.blocks) block.K = {};
     return copy;
   }
 

@@ -42,10 +42,7 @@ CoarseStart coarse_start(const Problem& problem, const Pdas& settings, Monitor& 
   problem::Coarser coarse = problem::coarser(problem, std::move(stiffness));
   const CoarseRows rows(coarse.problem, coarse.kept);
   if (rows.count() == 0) return start;
-  std::vector<algebra::StoredMatrix> K;  // moved: a copy would be as large
-  for (problem::Block& block : coarse.problem.blocks) K.push_back(std::exchange(block.K, {}));
-  Problem part = rows.restricted();
-  for (std::size_t b = 0; b < K.size(); ++b) part.blocks[b].K = std::move(K[b]);
+  const Problem part = rows.restricted();
   Result result;
   int meshes = 0;
   InnerMonitor inner(monitor);

@@ -42,7 +42,7 @@ HeldStiffness::HeldStiffness(const Problem& problem, const RigidMotions& rigid, 
     : problem_(problem), basis_(problem::row_basis(problem)), unnoticed_(problem::unnoticed_displacements(problem, rigid)), rows_(problem.B * basis_.T),
       fixing_(algebra::fixing_unknowns(unnoticed_)) {
   rows_.prune([](auto, auto, double value) { return std::abs(value) > 1e-14; });
-  assemble();
+  assemble(make.takes_slices);
   held_.assign(problem.unknowns(), 0);
   watched_ = held_;
   std::vector<char> may_be_held = held_;
@@ -52,11 +52,11 @@ HeldStiffness::HeldStiffness(const Problem& problem, const RigidMotions& rigid, 
   for (const int unknown : fixing_) change(unknown, unknown, lower().coeff(unknown, unknown));  // carries nothing
   if (rigid.noticed.cols() > 0) spring_rows(problem.row_stiffness());
   std::vector<Entry> first = now();
-  solver_ = make({lower(), numbers(first), problem, basis_, monitor, coarser});
+  solver_ = make.make({lower(), numbers(first), problem, basis_, monitor, coarser, slices_});
   told_ = std::move(first);
 }
 
-void HeldStiffness::assemble() {
+void HeldStiffness::assemble(bool takes_slices) {
   std::vector<Eigen::Triplet<double>> entries;  // of rows, and of the diagonal where K has no entry there: zeros in the pattern
   for (int r = 0; r < problem_.rows(); ++r)
     for (SparseRows::InnerIterator i(rows_, r); i; ++i)
@@ -65,16 +65,26 @@ void HeldStiffness::assemble() {
     const int a = basis_.unknown[first], b = basis_.unknown[first + group.components - 1];
     if (a >= 0 && b >= 0) entries.emplace_back(std::max(a, b), std::min(a, b), 0.0);
   }
+  const bool alone = problem_.blocks.size() == 1;
+  if (const auto* slices = problem_.blocks.front().K.slices(); slices && takes_slices && alone && basis_.trivial()) {
+    std::vector<char> of(static_cast<std::size_t>(problem_.unknowns()), 0);
+    for (const auto& entry : entries) of[entry.row()] = of[entry.col()] = 1;
+    for (const int unknown : fixing_) of[unknown] = 1;
+    lower_ = slices->near(of);
+    if (has_room(lower(), algebra::from_triplets(problem_.unknowns(), problem_.unknowns(), entries))) return void(slices_ = slices);
+  }
   for (const problem::Block& block : problem_.blocks)
     for (int j = 0; j < block.size(); ++j)
-      if (!algebra::diagonal_entry(block.K, j)) entries.emplace_back(block.first + j, block.first + j, 0.0);
+      if (!algebra::diagonal_entry(block.K.lower(), j)) entries.emplace_back(block.first + j, block.first + j, 0.0);
   const SparseMatrix zeros = algebra::from_triplets(problem_.unknowns(), problem_.unknowns(), entries);
-  const bool alone = problem_.blocks.size() == 1;
-  if (alone && basis_.trivial() && has_room(problem_.blocks.front().K, zeros)) return;
+  lower_ = problem_.blocks.front().K;
+  if (alone && basis_.trivial() && has_room(lower(), zeros)) return;
   const SparseMatrix joined = alone ? SparseMatrix() : problem::lower_stiffness(problem_);
-  const SparseMatrix& K = alone ? problem_.blocks.front().K : joined;
+  const SparseMatrix& K = alone ? problem_.blocks.front().K.lower() : joined;
   lower_ = basis_.trivial() ? algebra::lower_sum(K, zeros) : algebra::lower_sum(algebra::congruent(K, basis_.T), zeros);
 }
+
+algebra::SymmetricMatrix HeldStiffness::near(const std::vector<char>& of) const { return slices_ ? slices_->near(of) : lower_; }
 
 /// Of an entry where nothing is held.
 void HeldStiffness::change(int row, int column, double by) {
@@ -202,15 +212,15 @@ SparseMatrix held_slightly(const Problem& problem) {
 }  // namespace
 
 MakeSpdSolver factor(algebra::Ordering ordering) {
-  return [ordering](const SpdSystem& s) { return algebra::factored(s.lower, problem::nodes(s.problem), ordering); };
+  return {[ordering](const SpdSystem& s) { return algebra::factored(s.lower, problem::nodes(s.problem), ordering); }};
 }
 
 MakeSpdSolver incomplete_factor() {
-  return [](const SpdSystem& s) { return algebra::incompletely_factored(s.lower, s.monitor); };
+  return {[](const SpdSystem& s) { return algebra::incompletely_factored(s.lower, s.monitor); }};
 }
 
 MakeSpdSolver multigrid(Levels levels, double most_iterations) {
-  return [levels, most_iterations](const SpdSystem& s) -> std::unique_ptr<algebra::SpdSolver> {
+  const auto make = [levels, most_iterations](const SpdSystem& s) -> std::unique_ptr<algebra::SpdSolver> {
     const std::vector<int> nodes = problem::nodes(s.problem);
     const auto coarse = levels == Levels::meshes ? problem::coarse_functions(s.problem) : std::vector<SparseRows>();
     multigrid::Matrix matrix{s.lower, nodes, [&] {
@@ -218,7 +228,7 @@ MakeSpdSolver multigrid(Levels levels, double most_iterations) {
                                for (const SparseRows& functions : coarse) motions = problem::at_coarse(functions, motions);
                                return motions;
                              }};
-    matrix.changed = &s.changed;
+    matrix.changed = &s.changed, matrix.slices = s.slices;
     matrix.most_iterations = most_iterations;
     if (!coarse.empty()) matrix.coarse = &coarse, matrix.dimension = s.problem.blocks[0].coarse.dimension, matrix.coarser = s.coarser;
     if (s.basis.trivial()) return multigrid::make_solver(matrix, s.monitor);
@@ -226,6 +236,7 @@ MakeSpdSolver multigrid(Levels levels, double most_iterations) {
     matrix.displaced = &K, matrix.unknowns = &unknowns;
     return multigrid::make_solver(matrix, s.monitor);
   };
+  return {make, true};
 }
 
 }  // namespace dotyk::solver

@@ -14,14 +14,19 @@ namespace dotyk::solver {
 
 /// What a linear solver is made from: the first matrix, in the basis where rows are unknowns, and the problem that it belongs to.
 struct SpdSystem {
-  const algebra::SparseMatrix& lower;  ///< nothing held, no springs
+  const algebra::SparseMatrix& lower;  ///< nothing held, no springs; where there are slices, of entries near rows alone
   const algebra::Triplets& changed;    ///< other numbers that make it definite: of springs in the rows of bodies that nothing else holds
   const problem::Problem& problem;
   const problem::RowBasis& basis;
   Monitor& monitor;  ///< outlives the solver
   algebra::StoredMatrix* coarser;  ///< receives PᵀKP of problem::coarser() where the solver makes it; null: nobody asks
+  const algebra::SlicedMatrix* slices = nullptr;  ///< of the whole; null: there are none
 };
-using MakeSpdSolver = std::function<std::unique_ptr<algebra::SpdSolver>(const SpdSystem&)>;
+struct MakeSpdSolver {
+  std::function<std::unique_ptr<algebra::SpdSolver>(const SpdSystem&)> make;
+  bool takes_slices = false;  ///< else all of SpdSystem::lower is needed
+  explicit operator bool() const { return bool(make); }
+};
 
 /// A linear problem of an iteration was not solved.
 struct NotSolved : InputError {
@@ -54,8 +59,8 @@ class HeldStiffness {
                 algebra::StoredMatrix* coarser = nullptr);
 
   const problem::RowBasis& basis() const { return basis_; }
-  /// The lower triangle of TᵀKT; where rows couple unknowns its pattern has places, with zeros if need be.
-  const algebra::SparseMatrix& lower() const { return lower_.size() > 0 ? lower_ : problem_.blocks.front().K; }
+  /// The lower triangle of TᵀKT at flagged unknowns and their neighbours, or more of it.
+  algebra::SymmetricMatrix near(const std::vector<char>& of) const;
   /// `spring`: s, force per displacement, rows; `held`: one flag an unknown of the basis; `added`: to the matrix, lower triangle, of the unknowns of
   /// rows of one point. False where the matrix is not positive definite.
   bool factor(const algebra::Vector& spring, const std::vector<char>& held, const std::vector<Eigen::Triplet<double>>& added = {});
@@ -85,7 +90,9 @@ class HeldStiffness {
     double by = 0;
   };
 
-  void assemble();
+  /// The lower triangle of TᵀKT; where rows couple unknowns its pattern has places, with zeros if need be. Of slices, all entries of unknowns of rows.
+  const algebra::SparseMatrix& lower() const { return lower_.lower(); }
+  void assemble(bool takes_slices);
   void change(int row, int column, double by);
   void spring_rows(const algebra::Vector& spring);
   void watch(const std::vector<char>& held);
@@ -100,7 +107,8 @@ class HeldStiffness {
   const problem::RowBasis basis_;
   const algebra::SparseMatrix unnoticed_;
   algebra::SparseRows rows_;        ///< B T
-  algebra::StoredMatrix lower_;     ///< TᵀKT with room for what is added; none where K has that room and T is the identity
+  algebra::SymmetricMatrix lower_;  ///< K itself where that has the room and T is the identity
+  const algebra::SlicedMatrix* slices_ = nullptr;  ///< of TᵀKT; null: lower() is the whole
   std::vector<int> fixing_;         ///< unknowns that hold motions which no row notices
   std::vector<Entry> changed_;      ///< of the next matrix, in no order
   std::vector<Entry> told_;         ///< of the solver's

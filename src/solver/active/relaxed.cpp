@@ -31,18 +31,17 @@ std::vector<int> bearing(const Problem& problem, const Vector& lambda) {
 }
 
 /// The unknowns of rows, and of neighbours.
-std::vector<int> unknowns_near(const std::vector<int>& rows, const HeldStiffness& stiffness) {
-  const SparseMatrix& lower = stiffness.lower();
-  std::vector<char> near(static_cast<std::size_t>(lower.cols()), 0);
+std::vector<int> unknowns_near(const std::vector<int>& rows, const HeldStiffness& stiffness, int unknowns_of_all) {
+  std::vector<char> near(static_cast<std::size_t>(unknowns_of_all), 0);
   for (const int r : rows)
     if (const int own = stiffness.basis().unknown[r]; own >= 0) near[own] = 1;
   for (int k = 0; k < kLayers; ++k) {
     std::vector<char> wider = near;
-    algebra::each_entry_of(lower, near, [&](int, int row, int column) { wider[row] = wider[column] = 1; });
+    algebra::each_entry_of(stiffness.near(near).lower(), near, [&](int, int row, int column) { wider[row] = wider[column] = 1; });
     near = std::move(wider);
   }
   std::vector<int> unknowns;
-  for (int i = 0; i < lower.cols(); ++i)
+  for (int i = 0; i < unknowns_of_all; ++i)
     if (near[i]) unknowns.push_back(i);
   return unknowns;
 }
@@ -52,11 +51,12 @@ class NonlinearSmoothing {
  public:
   /// `bearing`: those rows.
   NonlinearSmoothing(const Problem& problem, const HeldStiffness& stiffness, const problem::State& from, const std::vector<int>& bearing)
-      : problem_(problem), basis_(stiffness.basis()), from_(from), lambda_(from.lambda), unknowns_(unknowns_near(bearing, stiffness)), rows_(unknowns_.size()),
+      : problem_(problem), basis_(stiffness.basis()), from_(from), lambda_(from.lambda), unknowns_(unknowns_near(bearing, stiffness, problem.unknowns())), rows_(unknowns_.size()),
         moved_(Vector::Zero(size())) {
     std::vector<int> place(static_cast<std::size_t>(problem.unknowns()), -1);
-    for (int k = 0; k < size(); ++k) place[unknowns_[k]] = k;
-    take_matrix(stiffness.lower(), place);
+    std::vector<char> near(place.size(), 0);
+    for (int k = 0; k < size(); ++k) place[unknowns_[k]] = k, near[unknowns_[k]] = 1;
+    take_matrix(stiffness.near(near).lower(), place);
     take_rows(place);
     const Vector jump = problem.B * from.u - problem.c;
     Vector given = lambda_;

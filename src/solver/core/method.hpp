@@ -19,6 +19,7 @@ class Method {
       : ordering_(chosen.ordering),
         begins_anew_(Chosen::begins_anew),
         takes_linear_(Chosen::takes_linear),
+        takes_slices_(takes_slices(chosen)),
         decomposition_(decomposition_of(chosen)),
         run_([chosen](const problem::Problem& problem, Beginning from, Monitor& monitor) {
           Chosen started = chosen;
@@ -38,6 +39,8 @@ class Method {
   algebra::Ordering ordering() const { return ordering_; }
   bool begins_anew() const { return begins_anew_; }
   bool takes_linear() const { return takes_linear_; }
+  /// Does the method take a stiffness that is in slices without putting it together?
+  bool takes_slices() const { return takes_slices_; }
   /// The same method with another tol.
   Method with_tol(double tol) const { return with_tol_(tol); }
   /// How the method wants bodies cut into subdomains; nothing where it has no use for them.
@@ -62,8 +65,14 @@ class Method {
     return std::nullopt;
   }
 
+  template <class Chosen>
+  static bool takes_slices(const Chosen& chosen) {
+    if constexpr (requires { chosen.linear.takes_slices; }) return chosen.linear.takes_slices && !chosen.reduced;
+    return false;
+  }
+
   algebra::Ordering ordering_ = algebra::Ordering::automatic;
-  bool begins_anew_ = false, takes_linear_ = false;
+  bool begins_anew_ = false, takes_linear_ = false, takes_slices_ = false;
   std::optional<problem::Decomposition> decomposition_;
   std::function<Result(const problem::Problem&, Beginning, Monitor&)> run_;
   std::function<Method(double)> with_tol_;

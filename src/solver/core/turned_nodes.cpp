@@ -92,7 +92,7 @@ Problem TurnedNodes::turned() const {
     if (rows > 0) {
       const SparseMatrix T = T_.block(begin, first, end - begin, end - begin - rows);
       const Vector u0 = u0_.segment(begin, end - begin);
-      const Vector held = block.K.selfadjointView<Eigen::Lower>() * u0;
+      const Vector held = block.K.times(u0);
       DenseMatrix moved(rows, block.kernel.cols());  // what the rows notice of motions
       double size = 0;
       std::vector<int> kept_nodes;

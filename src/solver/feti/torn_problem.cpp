@@ -34,7 +34,7 @@ Copies copies_of(const TornProblem& torn) {
 
 void add_blocks(const Problem& problem, TornProblem& torn) {
   for (const problem::Block& b : problem.blocks)
-    torn.pieces.push_back({"'" + b.name + "'", &b.K, &b.f, &b.node, &b.kernel, b.first, {}, 0});
+    torn.pieces.push_back({"'" + b.name + "'", &b.K.lower(), &b.f, &b.node, &b.kernel, b.first, {}, 0});
   torn.unknown.resize(torn.unknowns);
   std::iota(torn.unknown.begin(), torn.unknown.end(), 0);
   torn.value = Vector::Zero(torn.unknowns);

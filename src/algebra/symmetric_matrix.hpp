@@ -1,0 +1,75 @@
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+#include "algebra/entries_of.hpp"
+#include "algebra/symmetric_product.hpp"
+
+namespace dotyk::algebra {
+
+using LongVector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
+
+/// A symmetric matrix whose rows several processes have. Its functions ask them.
+class SlicedMatrix {
+ public:
+  virtual ~SlicedMatrix() = default;
+  virtual Vector times(const Vector& x) const = 0;
+  virtual LongVector times(const LongVector& x) const = 0;  ///< in extended precision
+  virtual Vector gross_times(const Vector& x) const = 0;    ///< |A| |x|
+  /// The lower triangle of the entries whose row or column is flagged.
+  virtual StoredMatrix near(const std::vector<char>& of) const = 0;
+
+  const Vector& diagonal() const { return diagonal_; }
+  int most_entries() const { return most_entries_; }  ///< of a row
+
+ protected:
+  Vector diagonal_;
+  int most_entries_ = 0;
+};
+
+/// A symmetric matrix: its lower triangle, or rows that several processes have. Copies share it; it does not change.
+class SymmetricMatrix {
+ public:
+  SymmetricMatrix() = default;
+  SymmetricMatrix(SparseMatrix lower) : content_(std::make_shared<Content>()) { content_->lower.swap(lower); }  // NOLINT: taken wherever a triangle is given
+  SymmetricMatrix(StoredMatrix lower) : content_(std::make_shared<Content>()) { content_->lower.swap(lower); }  // NOLINT
+  SymmetricMatrix(std::shared_ptr<const SlicedMatrix> slices) : content_(std::make_shared<Content>()) { content_->slices = std::move(slices); }  // NOLINT
+
+  /// The whole lower triangle, which slices are put together to when it is first asked for.
+  const SparseMatrix& lower() const {
+    static const SparseMatrix none;
+    if (!content_) return none;
+    if (slices()) std::call_once(content_->once, [&] { content_->lower = slices()->near(std::vector<char>(static_cast<std::size_t>(rows()), 1)); });
+    return content_->lower;
+  }
+  operator const SparseMatrix&() const { return lower(); }  // NOLINT
+  const SlicedMatrix* slices() const { return content_ ? content_->slices.get() : nullptr; }  ///< null: there are none
+
+  Eigen::Index rows() const { return slices() ? slices()->diagonal().size() : lower().rows(); }
+  double diagonal(int j) const {
+    if (slices()) return slices()->diagonal()[j];
+    const double* entry = diagonal_entry(lower(), j);
+    return entry ? *entry : 0;
+  }
+  /// The product with a vector, in its number type.
+  template <class Numbers>
+  typename Numbers::PlainObject times(const Numbers& x) const {
+    return slices() ? slices()->times(typename Numbers::PlainObject(x)) : symmetric_product(lower(), x);
+  }
+  Vector gross_times(const Vector& x) const {
+    return slices() ? slices()->gross_times(x) : symmetric_product(lower(), Vector(x.cwiseAbs()), [](double a) { return std::abs(a); });
+  }
+
+ private:
+  struct Content {
+    SparseMatrix lower;
+    std::shared_ptr<const SlicedMatrix> slices;
+    std::once_flag once;
+  };
+  std::shared_ptr<Content> content_;
+};
+
+}  // namespace dotyk::algebra

@@ -1,0 +1,69 @@
+#include "elasticity/share.hpp"
+
+#include <algorithm>
+
+#include "mesh/submesh.hpp"
+
+namespace dotyk::elasticity {
+
+namespace {
+
+// What the lists are after those of the material, in their order.
+enum Whole { kElement = 1, kCells, kFixed, kSpringFacets };
+enum Real { kCoordinates = 3, kSprings };
+
+}  // namespace
+
+Share share(const mesh::Mesh& mesh, const MaterialField& material, const std::vector<FacetSpring>& springs, const Numbering& numbering,
+            const std::vector<char>& own) {
+  std::vector<char> near(static_cast<std::size_t>(mesh.node_count()), 0);
+  for (std::size_t i = 0; i < own.size(); ++i)
+    if (own[i]) near[numbering.node[i]] = 1;
+  const int per_cell = mesh::nodes_of(mesh.element), dim = mesh.dimension();
+  std::vector<int> cells, place(static_cast<std::size_t>(springs.empty() ? 0 : mesh.cell_count()), -1);
+  for (int c = 0; c < mesh.cell_count(); ++c)
+    if (std::any_of(mesh.cell(c), mesh.cell(c) + per_cell, [&](int node) { return near[node]; })) {
+      if (!place.empty()) place[c] = static_cast<int>(cells.size());
+      cells.push_back(c);
+    }
+  mesh::Submesh part = mesh::submesh(mesh, std::move(cells));
+  Share out;
+  std::vector<int> fixed, facets;
+  std::vector<double> stiffness;
+  for (const int node : part.node)
+    for (int i = 0; i < dim; ++i) {
+      const int unknown = numbering.unknown[static_cast<std::size_t>(node) * dim + i];
+      fixed.push_back(unknown < 0);
+      if (unknown >= 0) out.unknowns.push_back(unknown);
+    }
+  for (const FacetSpring& spring : springs)
+    if (const int cell = place[spring.facet.cell]; cell >= 0) {
+      facets.insert(facets.end(), {cell, spring.facet.local});
+      for (const auto& at : spring.stiffness) stiffness.insert(stiffness.end(), at.begin(), at.end());
+    }
+  out.lists = material.of(part.cell).lists();
+  const auto add = [](auto& to, auto&&... lists) { (to.push_back(std::move(lists)), ...); };
+  add(out.lists.whole, std::vector{static_cast<int>(mesh.element)}, std::move(part.mesh.cells), std::move(fixed), std::move(facets));
+  add(out.lists.real, std::move(part.mesh.coordinates), std::move(stiffness));
+  return out;
+}
+
+algebra::StoredMatrix assemble_share(Lists lists) {
+  mesh::Mesh mesh;
+  mesh.element = static_cast<mesh::Element>(lists.whole[kElement][0]);
+  mesh.coordinates.swap(lists.real[kCoordinates]), mesh.cells.swap(lists.whole[kCells]);
+  const std::vector<int>& facets = lists.whole[kSpringFacets];
+  std::vector<FacetSpring> springs;
+  for (std::size_t k = 0; k < facets.size(); k += 2) {
+    FacetSpring& spring = springs.emplace_back(FacetSpring{{facets[k], facets[k + 1]}, {}});
+    const std::size_t points = static_cast<std::size_t>(facet_points(mesh));
+    for (std::size_t q = 0; q < points; ++q) {
+      const double* at = lists.real[kSprings].data() + (k / 2 * points + q) * 3;
+      spring.stiffness.push_back({at[0], at[1], at[2]});
+    }
+  }
+  const std::vector<int>& fixed = lists.whole[kFixed];
+  return assemble(mesh, MaterialField(lists), springs, {}, number(mesh, {fixed.begin(), fixed.end()}, std::vector<double>(fixed.size(), 0.0))).K;
+}
+
+}  // namespace dotyk::elasticity

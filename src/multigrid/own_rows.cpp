@@ -1,0 +1,83 @@
+#include "multigrid/own_rows.hpp"
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+namespace dotyk::multigrid {
+
+namespace {
+
+/// Does a column have the rows of the column before it, without the first of these? Most components of a node do.
+bool as_before(const algebra::SparseMatrix& lower, int j) {
+  const int *begin = lower.outerIndexPtr() + j, *rows = lower.innerIndexPtr();
+  return begin[0] - begin[-1] == begin[1] - begin[0] + 1 && std::equal(rows + begin[0], rows + begin[1], rows + begin[-1] + 1);
+}
+
+}  // namespace
+
+HalfRows own_rows(const algebra::SparseMatrix& lower, const std::vector<int>& slot, int block, int first, int nodes) {
+  std::vector<int> node = slot;
+  for (int& row : node) row /= block;
+  const auto is_own = [&](int node) { return node >= first && node < first + nodes; };
+  std::vector<char> met(static_cast<std::size_t>(lower.cols()), 0);  // columns of nodes with an entry that is this rank's, by their first column
+  HalfRows rows = room_for(block, first, nodes, [&](auto&& visit) {
+    for (int j = 0, begin = 0; j < lower.cols(); ++j) {
+      if (node[j] != node[begin]) begin = j;
+      if (j > begin && as_before(lower, j)) continue;
+      const bool own = is_own(node[j]);
+      bool meets = own;
+      for (int k = lower.outerIndexPtr()[j]; k < lower.outerIndexPtr()[j + 1]; ++k) {
+        const int row = node[lower.innerIndexPtr()[k]];
+        if (own || is_own(row)) visit(row, node[j]), meets = true;
+      }
+      if (meets) met[begin] = 1;
+    }
+  });
+  std::vector<HalfRows::Place> places;  // of a node's columns
+  for (int begin = 0, end; begin < lower.cols(); begin = end) {
+    const int column = node[begin];
+    for (end = begin + 1; end < lower.cols() && node[end] == column;) ++end;
+    if (!met[begin]) continue;
+    places.clear();
+    for (int j = begin; j < end; ++j) {
+      const int c = slot[j] - column * block;
+      std::size_t at = 0;
+      for (int k = lower.outerIndexPtr()[j], row; k < lower.outerIndexPtr()[j + 1];) {
+        row = node[lower.innerIndexPtr()[k]];
+        while (at < places.size() && places[at].row != row) ++at;
+        if (at == places.size()) places.push_back(rows.place(row, column));
+        const HalfRows::Place place = places[at];
+        for (; k < lower.outerIndexPtr()[j + 1] && node[lower.innerIndexPtr()[k]] == row; ++k) {
+          if (!place.numbers) continue;
+          const int r = slot[lower.innerIndexPtr()[k]] - row * block;
+          place.at(block, r, c) = lower.valuePtr()[k];
+          if (row == column) place.at(block, c, r) = lower.valuePtr()[k];
+        }
+      }
+    }
+  }
+  return rows;
+}
+
+void fill_idle(HalfRows& rows, const std::vector<int>& idle, double number) {
+  for (const int row : idle) {
+    const int node = row / rows.block, r = row % rows.block;
+    if (rows.own(node)) rows.place(node, node).at(rows.block, r, r) = number;
+  }
+}
+
+/// Sorts the entries of rows, or columns, first … last − 1 by their indices.
+void sort_entries(const int* starts, int first, int last, int* indices, double* values) {
+  std::vector<std::pair<int, double>> one;
+  for (int i = first; i < last; ++i) {
+    const int begin = starts[i], end = starts[i + 1];
+    if (std::is_sorted(indices + begin, indices + end)) continue;
+    one.clear();
+    for (int k = begin; k < end; ++k) one.emplace_back(indices[k], values[k]);
+    std::ranges::sort(one);
+    for (int k = begin; k < end; ++k) std::tie(indices[k], values[k]) = one[k - begin];
+  }
+}
+
+}  // namespace dotyk::multigrid

@@ -1,0 +1,56 @@
+// A matrix in slices, as rank 0 has it.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "multigrid/numbering.hpp"
+#include "multigrid/slice.hpp"
+#include "multigrid/workers.hpp"
+
+namespace dotyk::multigrid {
+
+/// Each call of PETSc or MPI holds it.
+std::mutex& only_one();
+
+/// The other ranks have a Slice each, and do what this one tells them.
+class RankSlices final : public algebra::SlicedMatrix {
+ public:
+  explicit RankSlices(const Shared& matrix);
+  ~RankSlices() override;
+
+  algebra::Vector times(const algebra::Vector& x) const override;
+  algebra::LongVector times(const algebra::LongVector& x) const override;
+  algebra::Vector gross_times(const algebra::Vector& x) const override;
+  algebra::StoredMatrix near(const std::vector<char>& of) const override;
+
+  int number() const { return workers_.solver(); }
+  const std::shared_ptr<const Numbering>& numbering() const { return numbering_; }
+  const HalfRows& own() const { return slice_->rows(); }  ///< of rank 0
+
+ private:
+  using Parts = std::vector<std::vector<double>>;
+  std::unique_ptr<Slice> share_out(const Shared& matrix) const;
+  /// The rows of the nodes of a rank, and how they are numbered; `slot` is left out.
+  SliceNumbers numbers_of(int rank) const;
+  void take_diagonal();
+  template <class Number>
+  std::vector<double> by_rows(const Number& of_unknown) const;
+  Parts product(Slice::Product how, Parts x) const;
+  algebra::Vector of_unknowns(const std::vector<double>& by_rows) const;
+
+  Workers workers_;
+  std::shared_ptr<const Numbering> numbering_;
+  std::vector<int> unknown_;  ///< of each row; -1: none
+  std::unique_ptr<Slice> slice_;
+};
+
+/// Rank 0 sends, another receives, what a slice is made from; both begin after the task was told.
+void send_share(const Ranks& ranks, int to, const Lists& lists, const SliceNumbers& numbers);
+std::unique_ptr<Slice> receive_slice(const Ranks& ranks, Assemble assemble);
+/// What another rank does for the tasks of products and of entries.
+void multiply(const Ranks& ranks, Slice& slice);
+void tell_some(const Ranks& ranks, const Slice& slice);
+
+}  // namespace dotyk::multigrid

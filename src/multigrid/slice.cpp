@@ -1,0 +1,90 @@
+#include "multigrid/slice.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "multigrid/own_rows.hpp"
+
+namespace dotyk::multigrid {
+
+namespace {
+
+HalfRows with_idle(const Ranks& ranks, HalfRows rows, const std::vector<int>& idle) {
+  double sum = 0;
+  for (int row = 0; row < rows.nodes() * rows.block; ++row) sum += rows.diagonal[static_cast<std::size_t>(row) * rows.block + row % rows.block];
+  const double count = ranks.sum(static_cast<double>(rows.nodes()) * rows.block - static_cast<double>(idle.size()));
+  fill_idle(rows, idle, ranks.sum(sum) / count);
+  return rows;
+}
+
+/// A x in x's number type; `of` is applied to each entry of A first. `theirs`: x at the nodes that are other ranks'.
+template <class Number, class Of>
+std::vector<Number> product(const HalfMatrix& A, const std::vector<Number>& x, const std::vector<Number>& theirs, const Of& of) {
+  const int n = A.block();
+  std::vector<Number> y(x.size(), 0);
+  for (int node = 0; node < A.nodes(); ++node) {
+    const Number* own = x.data() + static_cast<std::size_t>(node) * n;
+    Number* to = y.data() + static_cast<std::size_t>(node) * n;
+    A.each_own_block(node, [&](int other, const double* block) {
+      const bool here = other < A.nodes();
+      const Number* from = here ? x.data() + static_cast<std::size_t>(other) * n : theirs.data() + static_cast<std::size_t>(other - A.nodes()) * n;
+      Number* across = here && other != node ? y.data() + static_cast<std::size_t>(other) * n : nullptr;
+      for (int r = 0; r < n; ++r)
+        for (int c = 0; c < n; ++c) {
+          const double a = of(block[r * n + c]);
+          to[r] += a * from[c];
+          if (across) across[c] += a * own[r];
+        }
+    });
+  }
+  return y;
+}
+
+std::vector<long double> sum(const std::vector<double>& high, const std::vector<double>& low) {
+  std::vector<long double> all(high.begin(), high.end());
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] += low[i];
+  return all;
+}
+
+}  // namespace
+
+Slice::Slice(const Ranks& ranks, const algebra::SparseMatrix& share, const SliceNumbers& numbers)
+    : matrix_(ranks, with_idle(ranks, own_rows(share, numbers.slot, numbers.block, numbers.first, numbers.nodes), numbers.idle)) {}
+
+std::vector<double> Slice::diagonal() const {
+  std::vector<double> all;
+  for (int row = 0; row < matrix_.rows(); ++row) all.push_back(matrix_.diagonal(row));
+  return all;
+}
+
+int Slice::most_entries() const {
+  int most = 0;
+  for (int node = 0; node < matrix_.nodes(); ++node) {
+    int blocks = 0;
+    matrix_.each_block(node, [&](int, const double*, HalfMatrix::Read) { ++blocks; });
+    most = std::max(most, blocks * matrix_.block());
+  }
+  return most;
+}
+
+std::vector<std::vector<double>> Slice::times(Product how, const std::vector<std::vector<double>>& x) {
+  std::vector<std::vector<double>> y(x.size());
+  switch (how) {
+    case Product::plain:
+      y[0].resize(x[0].size());
+      matrix_.times(x[0].data(), y[0].data());
+      break;
+    case Product::gross: y[0] = product(matrix_, x[0], matrix_.theirs(x[0].data()), [](double a) { return std::abs(a); }); break;
+    case Product::precise: {
+      const std::vector<double> high = matrix_.theirs(x[0].data());
+      for (const long double number : product(matrix_, sum(x[0], x[1]), sum(high, matrix_.theirs(x[1].data())), [](double a) { return a; })) {
+        y[0].push_back(static_cast<double>(number));
+        y[1].push_back(static_cast<double>(number - y[0].back()));
+      }
+    }
+  }
+  return y;
+}
+
+}  // namespace dotyk::multigrid
