@@ -125,7 +125,7 @@ void Hierarchy::coarsen(const Change& first) {
   if (!ranks_.all(same)) S = oblong(piece_.unknowns, piece_.own[0], {piece_.block, piece_.block});
   if (!piece_.functions.empty()) {
     take_functions(S);
-    if (piece_.tells_coarser) compute_coarser();
+    if (piece_.coarser) compute_coarser();
     take(first);
     if (aggregates_follow(ranks_.sum(piece_.own.back()), ranks_.sum(piece_.own[0]))) {
       fill_coarse();

@@ -176,6 +176,13 @@ Numbering::Numbering(const Matrix& matrix, int ranks) {
   }
 }
 
+Numbering::Numbering(const Numbering& finer, const algebra::SparseRows& functions, int dimension)
+    : block_(dimension), functions_(finer.functions_.begin() + 1, finer.functions_.end()), first_(finer.first_.begin() + 1, finer.first_.end()) {
+  std::vector<char> used(static_cast<std::size_t>(functions.cols()), 0);
+  for (Eigen::Index k = 0; k < functions.nonZeros(); ++k) used[functions.innerIndexPtr()[k]] = 1;
+  for (std::size_t k = 0; k < used.size(); ++k) (used[k] ? slot_ : idle_).push_back(finer.functions_[0][k]);
+}
+
 bool Numbering::shares_by_functions(const std::vector<algebra::SparseRows>& coarse, int dimension, int ranks) {
   return !coarse.empty() && coarse.front().cols() / dimension >= kEnough * ranks;
 }

@@ -7,13 +7,15 @@
 
 namespace dotyk::multigrid {
 
-/// Numbers the rows of all levels. Unknowns come in blocks of one size, one block a node; a node of the finest level with fewer unknowns has idle rows after
-/// them. The rows of a rank follow one another.
+/// Numbers the rows of all levels. Unknowns come in blocks of one size, one block a node; a node of the finest level with fewer unknowns has idle rows
+/// beside them. The rows of a rank follow one another.
 /// METIS (Karypis, Kumar 1998) shares out the nodes of the coarsest mesh that has enough of them. A node of a finer mesh goes to the rank of the coarse node
 /// whose function is greatest there. Meshes that are coarser still belong to rank 0.
 class Numbering {
  public:
   Numbering(const Matrix& matrix, int ranks);
+  /// Of the next coarser mesh's matrix, on the functions that have entries; the same ranks have them.
+  Numbering(const Numbering& finer, const algebra::SparseRows& functions, int dimension);
   /// Has a coarser mesh enough nodes? Else the nodes of the finest are shared out by the pattern of the matrix.
   static bool shares_by_functions(const std::vector<algebra::SparseRows>& coarse, int dimension, int ranks);
 

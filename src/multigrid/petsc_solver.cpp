@@ -18,25 +18,27 @@ namespace {
 class PetscSolver final : public algebra::SpdSolver {
  public:
   PetscSolver(const Matrix& matrix, Monitor& monitor)
-      : monitor_(monitor), most_(matrix.most_iterations), geometric_(matrix.coarse), workers_(workers_for(static_cast<double>(matrix.lower.rows()))),
-        slices_(static_cast<const RankSlices*>(matrix.slices)),
+      : monitor_(monitor), most_(matrix.most_iterations), geometric_(matrix.coarse), slices_(static_cast<const RankSlices*>(matrix.slices)),
+        workers_(slices_ ? slices_->workers().next() : workers_for(static_cast<double>(matrix.lower.rows()))),
         numbering_(slices_ ? slices_->numbering() : std::make_shared<const Numbering>(matrix, workers_.ranks().count())), sharing_(sharing_unknowns(matrix)) {
     const Ranks& ranks = workers_.ranks();
     const Pieces pieces(matrix, *numbering_);
+    std::shared_ptr<const algebra::SlicedMatrix> coarser;
     ranks.together([&] {
       std::vector<Change> first(static_cast<std::size_t>(ranks.count()));
       if (matrix.changed) first = changes(*matrix.changed, {}, {}, *numbering_, ranks.count());
-      Piece own = share_out(pieces, first);
-      const bool tells = own.tells_coarser;
-      cycle_ = std::make_unique<Cycle>(ranks, std::move(own), first[0]);
-      if (!tells) return;
-      std::vector<HalfRows> coarser;
-      coarser.push_back(cycle_->take_coarser());
-      for (int r = 1; r < ranks.count(); ++r) coarser.push_back(receive_rows(ranks, r));
-      *matrix.coarser = pieces.coarser(coarser);
+      const bool asked = matrix.coarser && geometric_;
+      const Workers of_coarser = workers_.next();
+      cycle_ = std::make_unique<Cycle>(ranks, share_out(pieces, asked ? of_coarser.solver() : 0, first), first[0]);
+      if (asked)
+        coarser = std::make_shared<const RankSlices>(of_coarser, Numbering(*numbering_, matrix.coarse->front(), matrix.dimension), cycle_->take_coarser());
     });
     workers_.made();
     alone_.unlock();
+    if (!coarser) return;
+    const auto unknowns = static_cast<double>(coarser->diagonal().size());
+    *matrix.coarser = coarser;
+    if (!ranks.alone() && !several_ranks_have_work(unknowns)) *matrix.coarser = matrix.coarser->lower();
   }
   ~PetscSolver() override {
     alone_.lock();
@@ -88,9 +90,9 @@ class PetscSolver final : public algebra::SpdSolver {
   }
 
  private:
-  /// Sends each other rank its piece and its first changes; returns the piece of rank 0. Pieces are made in parallel, as many at a time as there are cores.
+  /// Sends each other rank its piece and its first changes; returns the piece of rank 0. `coarser`: as in Piece. Pieces are made in parallel, as many at a time as there are cores.
   /// The first are made before the other ranks are told to begin, because a rank keeps a core busy while it waits for its piece.
-  Piece share_out(const Pieces& pieces, std::vector<Change>& first) const {
+  Piece share_out(const Pieces& pieces, int coarser, std::vector<Change>& first) const {
     const Ranks& ranks = workers_.ranks();
     Piece own;
     for (int from = 0; from < ranks.count();) {
@@ -98,7 +100,7 @@ class PetscSolver final : public algebra::SpdSolver {
       parallel_for(static_cast<int>(some.size()), [&](int k) { some[k] = pieces.of(from + k); });
       if (from == 0) workers_.tell(Task::make);
       for (Piece& piece : some) {
-        if (slices_) piece.slices = slices_->number();
+        piece.slices = slices_ ? slices_->workers().solver() : 0, piece.coarser = coarser;
         if (from == 0) own = std::move(piece);
         else send(ranks, from, piece), send(ranks, from, first[from]);
         piece = {}, ++from;
@@ -133,8 +135,8 @@ class PetscSolver final : public algebra::SpdSolver {
   Monitor& monitor_;
   const double most_;  // iterations
   const bool geometric_;
-  Workers workers_;
   const RankSlices* const slices_;  // of the matrix that it is made from, until it is made; null: none
+  Workers workers_;
   const std::shared_ptr<const Numbering> numbering_;
   const std::set<int> sharing_;
   std::unique_ptr<Cycle> cycle_;

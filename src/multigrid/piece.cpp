@@ -81,9 +81,9 @@ void visit_all(HalfRows& rows, Visit&& visit) {
 
 template <class Visit>
 void visit_all(Piece& p, Visit&& visit) {
-  std::vector<int> sizes{p.block, p.dimension, p.motions, p.tells_coarser, p.slices, static_cast<int>(p.functions.size())};
+  std::vector<int> sizes{p.block, p.dimension, p.motions, p.coarser, p.slices, static_cast<int>(p.functions.size())};
   visit(sizes);
-  p.block = sizes[0], p.dimension = sizes[1], p.motions = sizes[2], p.tells_coarser = sizes[3], p.slices = sizes[4];
+  p.block = sizes[0], p.dimension = sizes[1], p.motions = sizes[2], p.coarser = sizes[3], p.slices = sizes[4];
   p.functions.resize(static_cast<std::size_t>(sizes[5]));
   visit(p.own);
   visit_all(p.matrix, visit), visit_all(p.displaced, visit);
@@ -121,46 +121,6 @@ Pieces::Pieces(const Matrix& matrix, const Numbering& numbering) : matrix_(matri
 
 Pieces::Source Pieces::source(const algebra::SparseMatrix& lower) const { return {&lower, mean_diagonal(lower)}; }
 
-namespace {
-
-/// Calls visit(row, column, number) for the entries of the lower triangle of which these are some rows; `place`: what rows and columns are to be called,
-/// -1 where they are left out.
-template <class Visit>
-void each_lower(const HalfRows& rows, const std::vector<int>& place, const Visit& visit) {
-  const int n = rows.block;
-  const auto block = [&](int row, int column, const double* numbers, const auto& wanted) {
-    for (int r = 0; r < n; ++r)
-      for (int c = 0; c < n; ++c)
-        if (const int i = place[row * n + r], j = place[column * n + c]; i >= 0 && j >= 0 && wanted(i, j)) visit(std::max(i, j), std::min(i, j), numbers[r * n + c]);
-  };
-  const auto all = [](int, int) { return true; };
-  const auto below = [](int i, int j) { return i >= j; };  // those above are another rank's, or stand twice in a block of the diagonal
-  const std::size_t square = static_cast<std::size_t>(n) * n;
-  for (int i = 0; i < rows.nodes(); ++i) {
-    for (int k = rows.starts[i]; k < rows.starts[i + 1]; ++k) block(rows.first + i, rows.first + rows.columns[k], rows.below.data() + k * square, all);
-    block(rows.first + i, rows.first + i, rows.diagonal.data() + i * square, below);
-    for (int k = rows.other_starts[i]; k < rows.other_starts[i + 1]; ++k) block(rows.first + i, rows.others[k], rows.other.data() + k * square, below);
-  }
-}
-
-}  // namespace
-
-algebra::StoredMatrix Pieces::coarser(const std::vector<HalfRows>& of_ranks) const {
-  const algebra::SparseRows& functions = matrix_.coarse->front();
-  std::vector<char> used(static_cast<std::size_t>(functions.cols()), 0);
-  for (Eigen::Index k = 0; k < functions.nonZeros(); ++k) used[functions.innerIndexPtr()[k]] = 1;
-  std::vector<int> place(used.size(), -1);
-  int count = 0;
-  for (std::size_t k = 0; k < used.size(); ++k)
-    if (used[k]) place[numbering_.functions(1)[k]] = count++;
-  return lower_triangle(count, [&](int first, int end, auto&& visit) {
-    for (const HalfRows& rows : of_ranks)
-      each_lower(rows, place, [&](int row, int column, double number) {
-        if (column >= first && column < end) visit(row, column, number);
-      });
-  });
-}
-
 HalfRows Pieces::rows_of(int rank, const Source& source) const {
   if (!source.lower) return {};
   const int block = numbering_.block(), first = numbering_.first(0)[rank] / block, count = numbering_.first(0)[rank + 1] / block - first;
@@ -179,7 +139,6 @@ Piece Pieces::of(int rank) const {
                                     range_of(rank, numbering_, l)));
   if (matrix_.unknowns) p.unknowns = some_rows(*matrix_.unknowns, numbering_.slot(), numbering_.slot(), range_of(rank, numbering_, 0), numbering_.idle());
   p.modes = some_modes(near_kernel_, meshes > 0 ? numbering_.functions(meshes) : numbering_.slot(), range_of(rank, numbering_, meshes));
-  p.tells_coarser = matrix_.coarser && meshes > 0;
   p.matrix = rows_of(rank, finest_), p.displaced = rows_of(rank, displaced_);
   return p;
 }
@@ -188,10 +147,6 @@ void send(const Ranks& ranks, int to, Piece& piece) {
   visit_all(piece, [&](const auto& numbers) { ranks.send(to, numbers); });
 }
 Piece receive_piece(const Ranks& ranks, int from) { return receive_whole<Piece>(ranks, from); }
-void send(const Ranks& ranks, int to, HalfRows& rows) {
-  visit_all(rows, [&](const auto& numbers) { ranks.send(to, numbers); });
-}
-HalfRows receive_rows(const Ranks& ranks, int from) { return receive_whole<HalfRows>(ranks, from); }
 void send(const Ranks& ranks, int to, Change& change) {
   visit_all(change, [&](const auto& numbers) { ranks.send(to, numbers); });
 }

@@ -14,7 +14,7 @@ namespace dotyk::multigrid {
 struct Piece {
   int block = 1, dimension = 3;  ///< unknowns of a node: on the finest level, on coarser meshes
   int motions = 0;               ///< columns of `modes`
-  int tells_coarser = 0;         ///< 1: rank 0 asks for the matrix of the next coarser mesh
+  int coarser = 0;               ///< the number of the slices that the matrix of the next coarser mesh becomes; 0: nobody asks for it
   std::vector<int> own;          ///< how many rows of each level are this rank's
   HalfRows matrix;               ///< idle rows have the mean of its diagonal
   int slices = 0;                ///< the number of the slices that `matrix` is taken from; 0: it is given
@@ -34,8 +34,6 @@ class Pieces {
   /// Throws std::runtime_error where no pieces can be made: a diagonal that is not positive, a matrix that is no lower triangle.
   Pieces(const Matrix& matrix, const Numbering& numbering);
   Piece of(int rank) const;
-  /// The lower triangle of the matrix of the next coarser mesh, as Matrix::coarser says, from the rows of all ranks.
-  algebra::StoredMatrix coarser(const std::vector<HalfRows>& of_ranks) const;
 
  private:
   /// A lower triangle of the finest level.
@@ -53,8 +51,6 @@ class Pieces {
 };
 void send(const Ranks& ranks, int to, Piece& piece);
 Piece receive_piece(const Ranks& ranks, int from);
-void send(const Ranks& ranks, int to, HalfRows& rows);
-HalfRows receive_rows(const Ranks& ranks, int from);
 
 /// How a matrix differs from the one before, as far as one rank's rows of the finest level are concerned.
 struct Change {

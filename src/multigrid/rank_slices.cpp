@@ -25,28 +25,45 @@ Rows receive_full(const Ranks& ranks, int from) {
   return rows;
 }
 
-}  // namespace
+/// Where a rank's rows are, by the numbers of Numbering.
+struct Place {
+  int block = 1, first = 0, nodes = 0;  ///< rows of a node; own nodes
+  std::vector<int> slot = {};           ///< row of each unknown of the rank's share
+};
 
-void send_share(const Ranks& ranks, int to, const Lists& lists, const SliceNumbers& numbers) {
-  ranks.send(to, std::vector<int>{numbers.block, numbers.first, numbers.nodes, static_cast<int>(lists.whole.size()), static_cast<int>(lists.real.size())});
-  ranks.send(to, numbers.slot), ranks.send(to, numbers.idle);
+void send(const Ranks& ranks, int to, const Lists& lists, const Place& place, const std::vector<int>& idle) {
+  ranks.send(to, std::vector<int>{place.block, place.first, place.nodes, static_cast<int>(lists.whole.size()), static_cast<int>(lists.real.size())});
+  ranks.send(to, place.slot);
   for (const auto& list : lists.whole) ranks.send(to, list);
   for (const auto& list : lists.real) ranks.send(to, list);
+  ranks.send(to, idle);
+}
+
+HalfRows assembled(Assemble assemble, Lists lists, const Place& place) {
+  return own_rows(assemble(std::move(lists)), place.slot, place.block, place.first, place.nodes);
+}
+
+}  // namespace
+
+std::unique_ptr<Slice> receive_rest(const Ranks& ranks, HalfRows rows) {
+  std::vector<int> idle;
+  ranks.receive(0, idle);
+  auto slice = std::make_unique<Slice>(ranks, std::move(rows), idle);
+  ranks.send(0, slice->diagonal());
+  ranks.send(0, std::vector<int>{slice->most_entries()});
+  return slice;
 }
 
 std::unique_ptr<Slice> receive_slice(const Ranks& ranks, Assemble assemble) {
   std::vector<int> sizes;
   ranks.receive(0, sizes);
-  SliceNumbers numbers{sizes[0], sizes[1], sizes[2], {}, {}};
-  ranks.receive(0, numbers.slot), ranks.receive(0, numbers.idle);
+  Place place{sizes[0], sizes[1], sizes[2]};
+  ranks.receive(0, place.slot);
   Lists lists;
   lists.whole.resize(static_cast<std::size_t>(sizes[3])), lists.real.resize(static_cast<std::size_t>(sizes[4]));
   for (auto& list : lists.whole) ranks.receive(0, list);
   for (auto& list : lists.real) ranks.receive(0, list);
-  auto slice = std::make_unique<Slice>(ranks, assemble(std::move(lists)), numbers);
-  ranks.send(0, slice->diagonal());
-  ranks.send(0, std::vector<int>{slice->most_entries()});
-  return slice;
+  return receive_rest(ranks, assembled(assemble, std::move(lists), place));
 }
 
 void multiply(const Ranks& ranks, Slice& slice) {
@@ -63,13 +80,19 @@ void tell_some(const Ranks& ranks, const Slice& slice) {
   send(ranks, 0, slice.some(rows));
 }
 
-RankSlices::RankSlices(const Shared& shared) : workers_(workers_for(static_cast<double>(shared.node.size()))) {
+namespace {
+
+Numbering numbering_of(const Shared& shared, int ranks) {
   const algebra::SparseMatrix none;
   Matrix matrix{none, shared.node, {}};
   matrix.coarse = &shared.coarse, matrix.dimension = shared.dimension;
-  numbering_ = std::make_shared<const Numbering>(matrix, workers_.ranks().count());
-  unknown_.assign(static_cast<std::size_t>(numbering_->first(0).back()), -1);
-  for (std::size_t i = 0; i < numbering_->slot().size(); ++i) unknown_[numbering_->slot()[i]] = static_cast<int>(i);
+  return Numbering(matrix, ranks);
+}
+
+}  // namespace
+
+RankSlices::RankSlices(const Shared& shared)
+    : RankSlices(workers_for(static_cast<double>(shared.node.size())), numbering_of(shared, ranks_now())) {
   workers_.ranks().together([&] {
     slice_ = share_out(shared);
     take_diagonal();
@@ -77,41 +100,56 @@ RankSlices::RankSlices(const Shared& shared) : workers_(workers_for(static_cast<
   workers_.made();
 }
 
+RankSlices::RankSlices(Workers workers, Numbering numbering, HalfRows own) : RankSlices(workers, std::move(numbering)) {
+  const Ranks& ranks = workers_.ranks();
+  for (int r = 1; r < ranks.count(); ++r) ranks.send(r, idle_of(r));
+  slice_ = std::make_unique<Slice>(ranks, std::move(own), idle_of(0));
+  take_diagonal();
+  workers_.made();
+}
+
+RankSlices::RankSlices(Workers workers, Numbering numbering) : workers_(workers), numbering_(std::make_shared<const Numbering>(std::move(numbering))) {
+  unknown_.assign(static_cast<std::size_t>(numbering_->first(0).back()), -1);
+  for (std::size_t i = 0; i < numbering_->slot().size(); ++i) unknown_[numbering_->slot()[i]] = static_cast<int>(i);
+}
+
 RankSlices::~RankSlices() {
   const std::lock_guard lock(only_one());
   workers_.tell(Task::drop_slice);
 }
 
-SliceNumbers RankSlices::numbers_of(int rank) const {
-  const int block = numbering_->block(), begin = numbering_->first(0)[rank], end = numbering_->first(0)[rank + 1];
-  SliceNumbers numbers{block, begin / block, (end - begin) / block, {}, {}};
-  std::ranges::copy_if(numbering_->idle(), std::back_inserter(numbers.idle), [&](int row) { return row >= begin && row < end; });
-  return numbers;
+std::vector<int> RankSlices::idle_of(int rank) const {
+  std::vector<int> idle;
+  const int begin = numbering_->first(0)[rank], end = numbering_->first(0)[rank + 1];
+  std::ranges::copy_if(numbering_->idle(), std::back_inserter(idle), [&](int row) { return row >= begin && row < end; });
+  return idle;
 }
 
+/// As many shares at a time as there are cores, that of rank 0 among the last.
 std::unique_ptr<Slice> RankSlices::share_out(const Shared& matrix) const {
   const Ranks& ranks = workers_.ranks();
-  const std::vector<int>& slot = numbering_->slot();
-  for (int end = ranks.count(); end > 0;) {  // as many at a time as there are cores, that of rank 0 last
-    const int begin = std::max(0, end - cores());
-    std::vector<Share> some(static_cast<std::size_t>(end - begin));
-    std::vector<SliceNumbers> numbers(some.size());
+  const std::vector<int>&slot = numbering_->slot(), &first = numbering_->first(0);
+  const int block = numbering_->block();
+  std::vector<Share> some;
+  std::vector<Place> places;
+  for (int end = ranks.count(), begin; end > 0; end = begin) {
+    begin = std::max(0, end - cores());
+    some.assign(static_cast<std::size_t>(end - begin), {}), places.assign(some.size(), {});
     parallel_for(static_cast<int>(some.size()), [&](int k) {
-      numbers[k] = numbers_of(begin + k);
+      const int from = first[begin + k], to = first[begin + k + 1];
       std::vector<char> own(slot.size());
-      for (std::size_t i = 0; i < own.size(); ++i) own[i] = numbering_->rank_of(slot[i]) == begin + k;
+      for (std::size_t i = 0; i < own.size(); ++i) own[i] = slot[i] >= from && slot[i] < to;
       some[k] = matrix.share(own);
-      for (const int unknown : some[k].unknowns) numbers[k].slot.push_back(slot[unknown]);
+      places[k] = {block, from / block, (to - from) / block};
+      for (const int unknown : some[k].unknowns) places[k].slot.push_back(slot[unknown]);
     });
     for (int r = std::max(1, begin); r < end; ++r) {
       workers_.tell(Task::slice, r);
-      send_share(ranks, r, some[r - begin].lists, numbers[r - begin]);
+      send(ranks, r, some[r - begin].lists, places[r - begin], idle_of(r));
       some[r - begin] = {};
     }
-    if (begin == 0) return std::make_unique<Slice>(ranks, matrix.assemble(std::move(some[0].lists)), numbers[0]);
-    end = begin;
   }
-  return nullptr;
+  return std::make_unique<Slice>(ranks, assembled(matrix.assemble, std::move(some[0].lists), places[0]), idle_of(0));
 }
 
 void RankSlices::take_diagonal() {

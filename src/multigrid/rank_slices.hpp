@@ -18,6 +18,8 @@ std::mutex& only_one();
 class RankSlices final : public algebra::SlicedMatrix {
  public:
   explicit RankSlices(const Shared& matrix);
+  /// Of rows that the ranks have; `own`: of rank 0. The others call receive_rest().
+  RankSlices(Workers workers, Numbering numbering, HalfRows own);
   ~RankSlices() override;
 
   algebra::Vector times(const algebra::Vector& x) const override;
@@ -25,15 +27,15 @@ class RankSlices final : public algebra::SlicedMatrix {
   algebra::Vector gross_times(const algebra::Vector& x) const override;
   algebra::StoredMatrix near(const std::vector<char>& of) const override;
 
-  int number() const { return workers_.solver(); }
+  const Workers& workers() const { return workers_; }
   const std::shared_ptr<const Numbering>& numbering() const { return numbering_; }
   const HalfRows& own() const { return slice_->rows(); }  ///< of rank 0
 
  private:
+  RankSlices(Workers workers, Numbering numbering);
   using Parts = std::vector<std::vector<double>>;
   std::unique_ptr<Slice> share_out(const Shared& matrix) const;
-  /// The rows of the nodes of a rank, and how they are numbered; `slot` is left out.
-  SliceNumbers numbers_of(int rank) const;
+  std::vector<int> idle_of(int rank) const;
   void take_diagonal();
   template <class Number>
   std::vector<double> by_rows(const Number& of_unknown) const;
@@ -46,10 +48,9 @@ class RankSlices final : public algebra::SlicedMatrix {
   std::unique_ptr<Slice> slice_;
 };
 
-/// Rank 0 sends, another receives, what a slice is made from; both begin after the task was told.
-void send_share(const Ranks& ranks, int to, const Lists& lists, const SliceNumbers& numbers);
+/// What another rank does for the constructors, for products and for entries.
 std::unique_ptr<Slice> receive_slice(const Ranks& ranks, Assemble assemble);
-/// What another rank does for the tasks of products and of entries.
+std::unique_ptr<Slice> receive_rest(const Ranks& ranks, HalfRows rows);
 void multiply(const Ranks& ranks, Slice& slice);
 void tell_some(const Ranks& ranks, const Slice& slice);
 

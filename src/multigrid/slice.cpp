@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <utility>
 
 #include "multigrid/own_rows.hpp"
 
@@ -49,8 +49,7 @@ std::vector<long double> sum(const std::vector<double>& high, const std::vector<
 
 }  // namespace
 
-Slice::Slice(const Ranks& ranks, const algebra::SparseMatrix& share, const SliceNumbers& numbers)
-    : matrix_(ranks, with_idle(ranks, own_rows(share, numbers.slot, numbers.block, numbers.first, numbers.nodes), numbers.idle)) {}
+Slice::Slice(const Ranks& ranks, HalfRows rows, const std::vector<int>& idle) : matrix_(ranks, with_idle(ranks, std::move(rows), idle)) {}
 
 std::vector<double> Slice::diagonal() const {
   std::vector<double> all;

@@ -3,24 +3,15 @@
 
 #include <vector>
 
-#include "base/lists.hpp"
 #include "multigrid/half_matrix.hpp"
-#include "multigrid/slices.hpp"
 
 namespace dotyk::multigrid {
-
-/// Where a rank's rows are, as Numbering says.
-struct SliceNumbers {
-  int block = 1, first = 0, nodes = 0;  ///< rows of a node; own nodes
-  std::vector<int> slot;                ///< row of each unknown of the rank's share
-  std::vector<int> idle;                ///< own rows without unknown
-};
 
 /// The functions are collective, except the const ones.
 class Slice {
  public:
-  /// `share`: the lower triangle of the rank's share. Idle rows get the mean of the diagonal.
-  Slice(const Ranks& ranks, const algebra::SparseMatrix& share, const SliceNumbers& numbers);
+  /// Idle rows, of this rank, get the mean of the diagonal.
+  Slice(const Ranks& ranks, HalfRows rows, const std::vector<int>& idle);
 
   const HalfRows& rows() const { return matrix_.stored(); }
   std::vector<double> diagonal() const;

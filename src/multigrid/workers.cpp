@@ -71,12 +71,12 @@ std::vector<int> next_task() {
 
 using Slices = std::map<int, std::unique_ptr<Slice>>;
 
-std::unique_ptr<Cycle> make(const Slices& slices) {
+std::unique_ptr<Cycle> make(Slices& slices) {
   Piece piece = receive_piece(world(), 0);
   if (piece.slices) piece.matrix = slices.at(piece.slices)->rows();
-  const bool tells = piece.tells_coarser;
+  const int coarser = piece.coarser;
   auto cycle = std::make_unique<Cycle>(world(), std::move(piece), receive_change(world(), 0));
-  if (HalfRows coarser = cycle->take_coarser(); tells) send(world(), 0, coarser);
+  if (HalfRows rows = cycle->take_coarser(); coarser) slices[coarser] = receive_rest(world(), std::move(rows));
   return cycle;
 }
 
@@ -103,11 +103,18 @@ bool several_ranks_have_work(double unknowns) {
   return ranks_now() > 1 && unknowns >= kShare * ranks_now();
 }
 
-Workers workers_for(double unknowns) {
-  static int solvers = 0;
-  const bool all = several_ranks_have_work(unknowns);
-  return {all ? world() : Ranks(MPI_COMM_SELF), ++solvers};
+namespace {
+
+int next_number() {
+  static int last = 0;
+  return ++last;
 }
+
+}  // namespace
+
+Workers workers_for(double unknowns) { return {several_ranks_have_work(unknowns) ? world() : Ranks(MPI_COMM_SELF), next_number()}; }
+
+Workers Workers::next() const { return {ranks_, next_number()}; }
 
 void Workers::tell(Task task) const {
   if (task == Task::drop || task == Task::drop_slice) --living();

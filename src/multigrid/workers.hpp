@@ -17,6 +17,7 @@ class Workers {
   const Ranks& ranks() const { return ranks_; }
   void tell(Task task) const;
   void tell(Task task, int rank) const;
+  Workers next() const;  ///< of the same ranks, for another
   int solver() const { return solver_; }  ///< its number, from 1
   void made() const;  ///< the solver, or the slices, live, until they tell `drop`
 

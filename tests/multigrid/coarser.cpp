@@ -56,13 +56,14 @@ TEST_CASE("the matrix of the next coarser mesh is told") {
   multigrid::Matrix matrix{cube.lower, cube.node, [&] { return motions; }};
   matrix.coarse = &coarse;
   const auto silent = multigrid::make_solver(matrix, monitor);
-  algebra::StoredMatrix coarser;
-  matrix.coarser = &coarser;
+  algebra::SymmetricMatrix stiffness;
+  matrix.coarser = &stiffness;
   const algebra::Triplets changed{{0, 0, 2 * cube.lower.coeff(0, 0)}};
   for (const algebra::Triplets* other : {static_cast<const algebra::Triplets*>(nullptr), &changed}) {  // of which it knows nothing
     matrix.changed = other;
-    coarser = algebra::StoredMatrix();
+    stiffness = {};
     const auto telling = multigrid::make_solver(matrix, monitor);
+    const algebra::SparseMatrix& coarser = stiffness.lower();
     REQUIRE(coarser.rows() == expected.rows());
     CHECK(algebra::SparseMatrix(coarser - expected).norm() <= 1e-14 * expected.norm());  // sums of 27 numbers
     for (int j = 0; j < coarser.cols(); ++j) {

@@ -38,7 +38,7 @@ bool has_room(const SparseMatrix& matrix, const SparseMatrix& pattern) {
 
 }  // namespace
 
-HeldStiffness::HeldStiffness(const Problem& problem, const RigidMotions& rigid, const MakeSpdSolver& make, Monitor& monitor, algebra::StoredMatrix* coarser)
+HeldStiffness::HeldStiffness(const Problem& problem, const RigidMotions& rigid, const MakeSpdSolver& make, Monitor& monitor, algebra::SymmetricMatrix* coarser)
     : problem_(problem), basis_(problem::row_basis(problem)), unnoticed_(problem::unnoticed_displacements(problem, rigid)), rows_(problem.B * basis_.T),
       fixing_(algebra::fixing_unknowns(unnoticed_)) {
   rows_.prune([](auto, auto, double value) { return std::abs(value) > 1e-14; });

@@ -19,7 +19,7 @@ struct SpdSystem {
   const problem::Problem& problem;
   const problem::RowBasis& basis;
   Monitor& monitor;  ///< outlives the solver
-  algebra::StoredMatrix* coarser;  ///< receives PᵀKP of problem::coarser() where the solver makes it; null: nobody asks
+  algebra::SymmetricMatrix* coarser;  ///< receives PᵀKP of problem::coarser() where the solver makes it; null: nobody asks
   const algebra::SlicedMatrix* slices = nullptr;  ///< of the whole; null: there are none
 };
 struct MakeSpdSolver {
@@ -56,7 +56,7 @@ class HeldStiffness {
   static constexpr double kTolerance = 1e-12;
   /// `coarser`: as in SpdSystem.
   HeldStiffness(const problem::Problem& problem, const problem::RigidMotions& rigid, const MakeSpdSolver& make, Monitor& monitor,
-                algebra::StoredMatrix* coarser = nullptr);
+                algebra::SymmetricMatrix* coarser = nullptr);
 
   const problem::RowBasis& basis() const { return basis_; }
   /// The lower triangle of TᵀKT at flagged unknowns and their neighbours, or more of it.
