@@ -245,6 +245,7 @@ std::vector<double> internal_force(const Mesh& mesh, const MaterialField& materi
                                    const std::vector<FacetSpring>& springs,
                                    const std::vector<double>& u) {
   std::vector<double> force(u.size(), 0.0);
+  if (std::all_of(u.begin(), u.end(), [](double x) { return x == 0; })) return force;
   const int dim = mesh.dimension();
   dispatch(mesh.element, [&]<class E>() {
     const auto moves = [&](int node) { return std::any_of(u.begin() + node * dim, u.begin() + (node + 1) * dim, [](double x) { return x != 0; }); };

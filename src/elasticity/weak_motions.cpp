@@ -1,7 +1,9 @@
 #include "elasticity/weak_motions.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "algebra/dense/decompositions.hpp"
 #include "algebra/dense/generalised_inverse.hpp"
@@ -29,16 +31,32 @@ constexpr double kNoise = 1e-4;
 /// Fewer nodes than this are not worth a thread.
 constexpr int kFewNodes = 100'000;
 
-/// Volumes of the cells shared out to their nodes, in units of the whole; one entry an unknown. The last digit depends on the number of threads.
-Vector lumped_volumes(const mesh::Mesh& mesh, const Numbering& numbering) {
+/// Are all components of the cell's nodes unknown?
+bool is_free(const mesh::Mesh& mesh, const Numbering& numbering, int cell) {
+  const int *nodes = mesh.cell(cell), d = mesh.dimension();
+  return std::all_of(nodes, nodes + mesh::nodes_of(mesh.element), [&](int node) {
+    const int* unknown = &numbering.unknown[static_cast<std::size_t>(node) * d];
+    return std::all_of(unknown, unknown + d, [](int u) { return u >= 0; });
+  });
+}
+
+/// Volumes, each as the Jacobian in the middle of a cell says.
+struct Volumes {
+  Vector lumped;       ///< of the cells, shared out to their nodes, in units of the whole; one entry an unknown
+  double dilated = 0;  ///< Σ volume c_iijj of the cells that are free
+};
+
+/// The last digit depends on the number of threads.
+Volumes volumes(const mesh::Mesh& mesh, const MaterialField& material, const Numbering& numbering) {
   constexpr int kFew = 100'000;  // cells, for a thread
   const double size = mesh.size();
   const int threads = threads_for(mesh.cell_count(), kFew);
   std::vector<Vector> shares(threads);
+  std::vector<double> dilated(static_cast<std::size_t>(threads), 0.0);
   parallel_ranges(mesh.cell_count(), threads, [&](int k, int first, int end) {
     shares[k] = Vector::Zero(mesh.node_count());
     dispatch(mesh.element, [&]<class E>() {
-      double x[E::nodes][E::dim], g[E::nodes][E::dim];
+      double x[E::nodes][E::dim], g[E::nodes][E::dim], bulk = 0;
       for (int c = first; c < end; ++c) {
         cell_coordinates<E>(mesh, c, x);
         double middle[E::dim] = {};
@@ -48,14 +66,23 @@ Vector lumped_volumes(const mesh::Mesh& mesh, const Numbering& numbering) {
           for (int i = 0; i < E::dim; ++i) x[a][i] = (x[a][i] - middle[i]) / size;
         const double volume = physical_gradient<E>(x, std::array<double, E::dim>{}, g);
         for (int a = 0; a < E::nodes; ++a) shares[k][mesh.cell(c)[a]] += volume;
+        if (!is_free(mesh, numbering, c)) continue;
+        if (material.varies() || !(bulk > 0)) {
+          const Hooke hooke = material.at(c);
+          bulk = 0;
+          for (int i = 0; i < E::dim; ++i)
+            for (int j = 0; j < E::dim; ++j) bulk += hooke.c[i][i][j][j];
+        }
+        for (int q = 0; q < E::points; ++q) dilated[k] += E::weight(q) * volume * bulk;
       }
     });
   });
   for (int k = 1; k < threads; ++k) shares[0] += shares[k];
   shares[0] /= shares[0].sum();
-  Vector w(numbering.count());
-  for (int k = 0; k < numbering.count(); ++k) w[k] = shares[0][numbering.node[k]];
-  return w;
+  Volumes out{Vector(numbering.count())};
+  for (int k = 0; k < numbering.count(); ++k) out.lumped[k] = shares[0][numbering.node[k]];
+  out.dilated = std::accumulate(dilated.begin(), dilated.end(), 0.0) * std::pow(size, mesh.dimension());
+  return out;
 }
 
 /// The combinations of vectors, given by their Gram matrix, that are orthonormal; none of those whose square is less than `least`.
@@ -73,10 +100,12 @@ ByRows combined(const Displacements& V, const DenseMatrix& coefficients) { retur
 /// What the measure is made of, on the unknowns.
 struct Motions {
   RigidFrame frame;
-  Vector w;  ///< M
+  Volumes volumes;
+  const Vector& w = volumes.lumped;  ///< M
   ByRows F;  ///< rigid motions of the frame, 3 or 6, and a dilatation: its last column
 
-  Motions(const mesh::Mesh& mesh, const Numbering& numbering) : frame(mesh), w(lumped_volumes(mesh, numbering)), F(numbering.count(), frame.count() + 1) {
+  Motions(const mesh::Mesh& mesh, const MaterialField& material, const Numbering& numbering)
+      : frame(mesh), volumes(elasticity::volumes(mesh, material, numbering)), F(numbering.count(), frame.count() + 1) {
     const int d = frame.dimension;
     parallel_ranges(mesh.node_count(), threads_for(mesh.node_count(), kFewNodes), [&](int, int first, int end) {
       for (std::size_t k = static_cast<std::size_t>(first) * d; k < static_cast<std::size_t>(end) * d; ++k) {
@@ -125,8 +154,8 @@ struct Motions {
   }
 };
 
-/// FᵀKF, in one pass over the cells. Motions that are rigid on a cell do no work there, and a dilatation strains all of it alike: only cells with prescribed
-/// components, where F is zero, need their matrices.
+/// FᵀKF. Motions that are rigid on a cell do no work there, and a dilatation strains all of it alike: only cells with prescribed components, where F is zero,
+/// need their matrices.
 template <class E>
 DenseMatrix energies(const mesh::Mesh& mesh, const MaterialField& material, const std::vector<FacetSpring>& springs, const Numbering& numbering, const Motions& motions) {
   constexpr int d = E::dim, count = (d == 2 ? 3 : 6) + 1;
@@ -140,25 +169,14 @@ DenseMatrix energies(const mesh::Mesh& mesh, const MaterialField& material, cons
   const int threads = threads_for(mesh.cell_count(), kFew);
   std::vector<Square> sums(static_cast<std::size_t>(threads), Square::Zero());
   parallel_ranges(mesh.cell_count(), threads, [&](int thread, int first, int end) {
-    double x[E::nodes][d], g[E::nodes][d], k[E::nodes][E::nodes][d][d];
+    double x[E::nodes][d], k[E::nodes][E::nodes][d][d];
     Hooke hooke = material.at(0);
     Square& sum = sums[thread];
     for (int c = first; c < end; ++c) {
+      if (is_free(mesh, numbering, c)) continue;
       const int* n = mesh.cell(c);
       if (material.varies()) hooke = material.at(c);
       cell_coordinates<E>(mesh, c, x);
-      const bool free = std::all_of(n, n + E::nodes, [&](int node) {
-        const int* unknown = &numbering.unknown[static_cast<std::size_t>(node) * d];
-        return std::all_of(unknown, unknown + d, [](int u) { return u >= 0; });
-      });
-      if (free) {
-        double volume = 0, dilated = 0;
-        for (int q = 0; q < E::points; ++q) volume += physical_gradient<E>(x, E::point(q), g) * E::weight(q);
-        for (int i = 0; i < d; ++i)
-          for (int j = 0; j < d; ++j) dilated += hooke.c[i][i][j][j];
-        sum(count - 1, count - 1) += volume * dilated / (motions.frame.size * motions.frame.size);
-        continue;
-      }
       stiffness<E>(x, hooke, k);
       Eigen::Matrix<double, E::nodes * d, E::nodes * d> whole;
       Eigen::Matrix<double, E::nodes * d, count> F;
@@ -172,6 +190,7 @@ DenseMatrix energies(const mesh::Mesh& mesh, const MaterialField& material, cons
     }
   });
   for (int k = 1; k < threads; ++k) sums[0] += sums[k];
+  sums[0](count - 1, count - 1) += motions.volumes.dilated / (motions.frame.size * motions.frame.size);
   for (const FacetSpring& spring : springs)
     for_each_facet_point(mesh, spring.facet, [&](const FacetPoint& p) {
       for (int i = 0; i < d; ++i) {
@@ -237,7 +256,7 @@ WeakMotions weak_motions(const mesh::Mesh& mesh, const MaterialField& material, 
                          const algebra::SymmetricMatrix& K, const DenseMatrix& kernel) {
   const int all = mesh.dimension() == 2 ? 3 : 6;
   if (numbering.count() == 0 || kernel.cols() == all) return {};
-  const Motions motions(mesh, numbering);
+  const Motions motions(mesh, material, numbering);
   const ByRows fixed = kernel;
   DenseMatrix gram = motions.inner(motions.rigid(), motions.rigid());
   if (kernel.cols() > 0) gram -= algebra::product(motions.inner(motions.rigid(), fixed), motions.in_kernel(fixed, motions.rigid()));

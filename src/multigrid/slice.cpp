@@ -19,9 +19,10 @@ HalfRows with_idle(const Ranks& ranks, HalfRows rows, const std::vector<int>& id
 }
 
 /// A x in x's number type; `of` is applied to each entry of A first. `theirs`: x at the nodes that are other ranks'.
-template <class Number, class Of>
-std::vector<Number> product(const HalfMatrix& A, const std::vector<Number>& x, const std::vector<Number>& theirs, const Of& of) {
-  const int n = A.block();
+/// `rows`: of a node, as a constant for the compiler; 0: A's are used.
+template <int rows, class Number, class Of>
+std::vector<Number> product_of(const HalfMatrix& A, const std::vector<Number>& x, const std::vector<Number>& theirs, const Of& of) {
+  const int n = rows > 0 ? rows : A.block();
   std::vector<Number> y(x.size(), 0);
   for (int node = 0; node < A.nodes(); ++node) {
     const Number* own = x.data() + static_cast<std::size_t>(node) * n;
@@ -30,15 +31,23 @@ std::vector<Number> product(const HalfMatrix& A, const std::vector<Number>& x, c
       const bool here = other < A.nodes();
       const Number* from = here ? x.data() + static_cast<std::size_t>(other) * n : theirs.data() + static_cast<std::size_t>(other - A.nodes()) * n;
       Number* across = here && other != node ? y.data() + static_cast<std::size_t>(other) * n : nullptr;
-      for (int r = 0; r < n; ++r)
+      for (int r = 0; r < n; ++r) {
+        Number sum = 0;
         for (int c = 0; c < n; ++c) {
           const double a = of(block[r * n + c]);
-          to[r] += a * from[c];
+          sum += a * from[c];
           if (across) across[c] += a * own[r];
         }
+        to[r] += sum;
+      }
     });
   }
   return y;
+}
+
+template <class Number, class Of>
+std::vector<Number> product(const HalfMatrix& A, const std::vector<Number>& x, const std::vector<Number>& theirs, const Of& of) {
+  return A.block() == 3 ? product_of<3>(A, x, theirs, of) : product_of<0>(A, x, theirs, of);
 }
 
 std::vector<long double> sum(const std::vector<double>& high, const std::vector<double>& low) {
