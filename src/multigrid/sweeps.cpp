@@ -16,6 +16,7 @@ void Sweeps::set(double omega) {
   for (std::size_t at = 0; at < inverse_.size(); at += square) invert(of.size, of.diagonal + at, inverse_.data() + at);
   for (const int node : A_.border())
     for (std::size_t k = 0; k < square; ++k) inverse_[node * square + k] *= omega;
+  take_border();
 }
 
 HalfBlocks<float> Sweeps::half() const {
@@ -45,32 +46,44 @@ void Sweeps::backward(const double* b, double* x) {
 
 namespace {
 
-/// to += factor × a matrix of n rows times x; entry(r, c): its numbers.
-template <class Entry>
-void add_product(int n, const Entry& entry, double factor, const double* x, double* to) {
+/// to += factor A x, A an n × n matrix, row by row, or its transpose.
+void add_product(int n, double factor, const double* A, const double* x, double* to) {
   for (int r = 0; r < n; ++r)
-    for (int c = 0; c < n; ++c) to[r] += factor * entry(r, c) * x[c];
+    for (int c = 0; c < n; ++c) to[r] += factor * A[r * n + c] * x[c];
+}
+void add_transposed(int n, double factor, const double* A, const double* x, double* to) {
+  for (int r = 0; r < n; ++r)
+    for (int c = 0; c < n; ++c) to[c] += factor * A[r * n + c] * x[r];
 }
 
 }  // namespace
 
-auto Sweeps::inverse_of(int node) const {
+void Sweeps::take_border() {
   const int n = A_.block();
-  return [of = inverse_.data() + static_cast<std::size_t>(node) * n * n, n](int r, int c) { return of[r * n + c]; };
+  border_ = {};
+  for (const int node : A_.border()) {
+    A_.each_block(node, [&](int other, const double* block, HalfMatrix::Read read) {
+      if (other >= A_.nodes()) return;
+      border_.columns.push_back(other);
+      for (int r = 0; r < n; ++r)
+        for (int c = 0; c < n; ++c) border_.values.push_back(A_.entry(block, read, r, c));
+    });
+    border_.starts.push_back(static_cast<int>(border_.columns.size()));
+  }
 }
 
 void Sweeps::sweep_border_forward(double* x, double* left) {
   if (A_.ranks().alone()) return;
   const int n = A_.block();
-  for (const int node : A_.border()) {
-    double* change = work_.data() + static_cast<std::size_t>(node) * n;
+  const std::size_t square = static_cast<std::size_t>(n) * n;
+  for (std::size_t k = 0; k < A_.border().size(); ++k) {
+    const std::size_t first = static_cast<std::size_t>(A_.border()[k]) * n;
+    double* change = work_.data() + first;
     std::fill_n(change, n, 0.0);
-    add_product(n, inverse_of(node), 1, left + static_cast<std::size_t>(node) * n, change);
-    for (int r = 0; r < n; ++r) x[static_cast<std::size_t>(node) * n + r] += change[r];
-    A_.each_block(node, [&](int other, const double* block, HalfMatrix::Read read) {  // the block of row `other` and column `node` is its transpose
-      const auto transposed = [&](int r, int c) { return A_.entry(block, read, c, r); };
-      if (other < A_.nodes()) add_product(n, transposed, -1, change, left + static_cast<std::size_t>(other) * n);
-    });
+    add_product(n, 1, inverse_.data() + first * n, left + first, change);
+    for (int r = 0; r < n; ++r) x[first + r] += change[r];
+    for (int e = border_.starts[k]; e < border_.starts[k + 1]; ++e)  // the block of row `other` and column `node` is the transpose
+      add_transposed(n, -1, border_.values.data() + e * square, change, left + static_cast<std::size_t>(border_.columns[e]) * n);
   }
   A_.times_others(work_.data(), [&](int row, double number) { left[row] -= number; });
 }
@@ -78,17 +91,15 @@ void Sweeps::sweep_border_forward(double* x, double* left) {
 void Sweeps::sweep_border_backward(const double* b, double* x) {
   if (A_.ranks().alone()) return;
   const int n = A_.block();
+  const std::size_t square = static_cast<std::size_t>(n) * n;
   A_.times_others(x, [&](int row, double number) { work_[row] = number; });
   double left[kMostRows];
   for (std::size_t k = A_.border().size(); k-- > 0;) {
-    const int node = A_.border()[k];
-    const std::size_t first = static_cast<std::size_t>(node) * n;
+    const std::size_t first = static_cast<std::size_t>(A_.border()[k]) * n;
     for (int r = 0; r < n; ++r) left[r] = b[first + r] - work_[first + r];
-    A_.each_block(node, [&](int other, const double* block, HalfMatrix::Read read) {
-      const auto numbers = [&](int r, int c) { return A_.entry(block, read, r, c); };
-      if (other < A_.nodes()) add_product(n, numbers, -1, x + static_cast<std::size_t>(other) * n, left);
-    });
-    add_product(n, inverse_of(node), 1, left, x + first);
+    for (int e = border_.starts[k]; e < border_.starts[k + 1]; ++e)
+      add_product(n, -1, border_.values.data() + e * square, x + static_cast<std::size_t>(border_.columns[e]) * n, left);
+    add_product(n, 1, inverse_.data() + first * n, left, x + first);
   }
 }
 

@@ -23,12 +23,11 @@ class Sweeps {
   void forward(const double* b, double* x, double* left);
   /// x += M⁻ᵀ (b − A x).
   void backward(const double* b, double* x);
-  double bytes() const { return 4.0 * static_cast<double>(below_.size()) + 8.0 * static_cast<double>(inverse_.size() + work_.size()); }
+  double bytes() const { return 4.0 * static_cast<double>(below_.size()) + 8.0 * static_cast<double>(inverse_.size() + work_.size() + border_.values.size()); }
 
  private:
   HalfBlocks<float> half() const;
-  /// The numbers of the inverse of a node's block, by row and column.
-  auto inverse_of(int node) const;
+  void take_border();
   void sweep_border_forward(double* x, double* left);
   void sweep_border_backward(const double* b, double* x);
 
@@ -37,6 +36,7 @@ class Sweeps {
   std::vector<float> below_;
   std::vector<double> inverse_;
   std::vector<double> work_;  ///< by own rows, zero but at the border
+  Rows border_;               ///< of each node of the border the own nodes that it is coupled to, itself too, and the blocks, together so that they are read in a row
 };
 
 /// The relaxation factor ω of such sweeps at nodes that are coupled to other ranks; 1 on one rank. A = A_local + A_between, where A_between couples nodes of
