@@ -236,7 +236,7 @@ MakeSpdSolver multigrid(Levels levels, double most_iterations) {
     matrix.displaced = &K, matrix.unknowns = &unknowns;
     return multigrid::make_solver(matrix, s.monitor);
   };
-  return {make, true};
+  return {make, levels == Levels::meshes};  // ranks share out a matrix for aggregates by its pattern
 }
 
 }  // namespace dotyk::solver
