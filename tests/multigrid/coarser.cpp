@@ -85,3 +85,43 @@ TEST_CASE("the matrix of the next coarser mesh is told") {
     }
   }
 }
+
+TEST_CASE("what slices tell is what their lower triangle says") {
+  if (test::not_built()) return;
+  Monitor monitor;
+  constexpr int n = 8;
+  const test::ElasticCube cube = test::cube_on_its_bottom(n);
+  const std::vector<SparseRows> coarse{functions_of(cube, n, false)};
+  const algebra::DenseMatrix motions(coarse[0].cols(), 0);
+  multigrid::Matrix matrix{cube.lower, cube.node, [&] { return motions; }};
+  matrix.coarse = &coarse;
+  algebra::SymmetricMatrix A;
+  matrix.coarser = &A;
+  const auto solver = multigrid::make_solver(matrix, monitor);
+  REQUIRE(A.slices());
+  const algebra::SparseMatrix& lower = A.lower();
+  Vector x(A.rows());
+  for (int i = 0; i < x.size(); ++i) x[i] = std::sin(1.0 + i);
+  CHECK((A.times(x) - algebra::symmetric_product(lower, x)).norm() <= 1e-14 * A.gross_times(x).norm());
+  CHECK((A.gross_times(x) - algebra::symmetric_product(lower, Vector(x.cwiseAbs()), [](double a) { return std::abs(a); })).norm() <= 1e-14 * A.gross_times(x).norm());
+  // In extended precision, of a vector that needs it: sums of 81 products.
+  const algebra::LongVector u = x.cast<long double>() + 1e-18L * algebra::LongVector::Ones(x.size()), precise = A.times(u);
+  CHECK(static_cast<double>((precise - algebra::symmetric_product(lower, u)).norm()) <= 1e-17 * A.gross_times(x).norm());
+  int most = 0;
+  std::vector<int> entries(static_cast<std::size_t>(lower.cols()), 0);
+  for (int j = 0; j < lower.cols(); ++j) {
+    CHECK(A.diagonal(j) == lower.coeff(j, j));
+    for (algebra::SparseMatrix::InnerIterator it(lower, j); it; ++it) ++entries[it.row()], entries[j] += it.row() != j;
+  }
+  for (const int count : entries) most = std::max(most, count);
+  CHECK(A.slices()->most_entries() >= most);
+  std::vector<char> of(entries.size(), 0);
+  for (std::size_t i = 0; i < of.size(); i += 7) of[i] = 1;
+  const algebra::SparseMatrix near = A.slices()->near(of);
+  Eigen::Index count = 0;
+  algebra::each_entry_of(lower, of, [&](int k, int row, int column) {
+    ++count;
+    CHECK(std::abs(near.coeff(row, column) - lower.valuePtr()[k]) <= 1e-15 * std::abs(lower.valuePtr()[k]));  // PᵀKP is symmetric up to rounding
+  });
+  CHECK(near.nonZeros() == count);
+}
