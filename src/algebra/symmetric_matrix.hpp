@@ -59,6 +59,7 @@ class SymmetricMatrix {
   typename Numbers::PlainObject times(const Numbers& x) const {
     return slices() ? slices()->times(typename Numbers::PlainObject(x)) : symmetric_product(lower(), x);
   }
+  /// |A| |x|.
   Vector gross_times(const Vector& x) const {
     return slices() ? slices()->gross_times(x) : symmetric_product(lower(), Vector(x.cwiseAbs()), [](double a) { return std::abs(a); });
   }

@@ -235,8 +235,8 @@ WeakMotions by_response(const Motions& motions, const ByRows& Q, const Numbering
 }
 
 /// The motions (columns) that springs alone resist, by less than rounding.
-ByRows lost_in_rounding(const Motions& motions, const mesh::Mesh& mesh, const Numbering& numbering, const SparseMatrix& lower, const ByRows& tried) {
-  const Vector residual = algebra::kernel_residual(lower, tried);
+ByRows lost_in_rounding(const Motions& motions, const mesh::Mesh& mesh, const Numbering& numbering, const algebra::SymmetricMatrix& K, const ByRows& tried) {
+  const Vector residual = algebra::kernel_residual(K, tried);
   std::vector<Eigen::Index> lost;
   for (Eigen::Index m = 0; m < residual.size(); ++m) {
     if (!(residual[m] < kLost)) continue;

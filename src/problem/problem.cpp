@@ -69,7 +69,7 @@ Vector Problem::load() const {
   return f;
 }
 
-void require_kernel(const SparseMatrix& K, const algebra::DenseMatrix& kernel, const std::string& name,
+void require_kernel(const algebra::SymmetricMatrix& K, const algebra::DenseMatrix& kernel, const std::string& name,
                     const std::vector<Motion>& motions) {
   // Between rounding (a few 1e-16, flat cells, great distances and near incompressibility included) and whatever holds a body.
   constexpr double kResists = 1e-12;
@@ -114,7 +114,7 @@ void require_moderate(const Problem& problem, double most_force) {
 }
 
 void add(Problem& problem, Block block) {
-  if (block.kernel.cols() > 0) require_kernel(block.K, block.kernel, "'" + block.name + "'", block.motions);
+  require_kernel(block.K, block.kernel, "'" + block.name + "'", block.motions);
   block.first = problem.unknowns();
   problem.blocks.push_back(std::move(block));
 }

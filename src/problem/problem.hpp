@@ -98,9 +98,9 @@ struct Problem {
   std::string name_of(int row) const;      ///< by row_name, or "row 7"
 };
 
-/// Throws InputError where K (lower triangle) resists one of the modes said to be its kernel:
+/// Throws InputError where K resists one of the modes said to be its kernel:
 /// algebra::kernel_residual() above 1e-12. `name`: whose K, in quotes; `motions`: what the modes are.
-void require_kernel(const algebra::SparseMatrix& K, const algebra::DenseMatrix& kernel, const std::string& name,
+void require_kernel(const algebra::SymmetricMatrix& K, const algebra::DenseMatrix& kernel, const std::string& name,
                     const std::vector<Motion>& motions);
 
 /// Throws InputError where stiffnesses, forces (loads, and what gaps and moves make of the stiffness) or displacements are so large or

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "algebra/types.hpp"
+#include "algebra/symmetric_matrix.hpp"
 
 namespace dotyk::problem {
 
@@ -21,7 +21,7 @@ struct Decomposition {
 
 /// ½vᵀKv: shared by pieces that are translates of each other.
 struct Stiffness {
-  algebra::SparseMatrix K;      ///< lower triangle; positive semidefinite
+  algebra::SymmetricMatrix K;   ///< positive semidefinite
   algebra::DenseMatrix kernel;  ///< ker K: unknowns × modes
 };
 
@@ -38,7 +38,7 @@ struct Subdomain {
   algebra::SparseRows S;        ///< springs that are to be rows of the dual problem: those × own unknowns
   algebra::Vector spring;       ///< k_q > 0 of each; none where supports are in the matrices
   int size() const { return static_cast<int>(f.size()); }
-  const algebra::SparseMatrix& K() const { return stiffness->K; }
+  const algebra::SparseMatrix& K() const { return stiffness->K.lower(); }
   const algebra::DenseMatrix& kernel() const { return stiffness->kernel; }
 };
 

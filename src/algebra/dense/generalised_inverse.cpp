@@ -45,16 +45,12 @@ std::vector<int> fixing_unknowns(const SparseMatrix& kernel) {
   return unknowns;
 }
 
-Vector gross_product(const SparseMatrix& lower, const Vector& w) {
-  return symmetric_product(lower, Vector(w.cwiseAbs()), [](double a) { return std::abs(a); });
-}
-
-Vector kernel_residual(const SparseMatrix& lower, const DenseMatrix& R) {
+Vector kernel_residual(const SymmetricMatrix& K, const DenseMatrix& R) {
   Vector result = Vector::Zero(R.cols());
   if (R.cols() == 0) return result;
-  const Vector rows = gross_product(lower, Vector::Ones(lower.rows()));
+  const Vector rows = K.gross_times(Vector::Ones(K.rows()));
   for (Eigen::Index k = 0; rows.size() > 0 && k < R.cols(); ++k) {
-    const Vector force = symmetric_product(lower, Vector(R.col(k)));
+    const Vector force = K.times(Vector(R.col(k)));
     for (Eigen::Index i = 0; i < rows.size(); ++i)
       if (rows[i] > 0) result[k] = std::max(result[k], std::abs(force[i]) / rows[i]);
     result[k] /= R.col(k).lpNorm<Eigen::Infinity>();

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "algebra/direct/cholesky.hpp"
-#include "algebra/types.hpp"
+#include "algebra/symmetric_matrix.hpp"
 
 namespace dotyk::algebra {
 
@@ -17,13 +17,10 @@ std::vector<int> fixing_unknowns(const DenseMatrix& kernel);
 /// Of every piece of it, see pieces().
 std::vector<int> fixing_unknowns(const SparseMatrix& kernel);
 
-/// |K||w|. `lower`: K's lower triangle.
-Vector gross_product(const SparseMatrix& lower, const Vector& w);
-
 /// How far K R is from zero: for each column r of R the greatest |K r|_i / Σ_j |K_ij|, relative to r's
 /// greatest entry. Row by row, so that soft parts of a body count as stiff ones do. Rounding leaves a few
-/// 1e-16 for rigid modes; one product with K a column. `lower`: K's lower triangle.
-Vector kernel_residual(const SparseMatrix& lower, const DenseMatrix& R);
+/// 1e-16 for rigid modes; one product with K a column.
+Vector kernel_residual(const SymmetricMatrix& K, const DenseMatrix& R);
 
 /// K with the rows and columns of the unknowns emptied but for their diagonal entries, which become K's greatest (1 where
 /// that is zero): these unknowns then neither move nor act. The pattern stays.

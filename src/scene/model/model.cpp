@@ -77,13 +77,16 @@ void set_load(const Body& body, const Numbering& numbering, problem::Block& bloc
       block.offset += numbering.prescribed[k] * (0.5 * held[k] - body.force[k]);
 }
 
-/// K in slices; null where one process is to make it.
-std::shared_ptr<const algebra::SlicedMatrix> slices_of_stiffness(const Body& body, const Numbering& numbering) {
+/// Can several ranks make the rows of K? Of one body, with coarser meshes.
+bool can_be_sliced(const problem::Problem& problem) {
+  return problem.blocks.size() == 1 && problem.blocks[0].coarse.count > 0 && multigrid::several_ranks_have_work_for(problem.unknowns());
+}
+
+/// K in slices; null where the nodes of coarser meshes are too few.
+std::shared_ptr<const algebra::SlicedMatrix> slices_of_stiffness(const Body& body, const Numbering& numbering, const problem::CoarseMeshes& coarse) {
   const mesh::Mesh& mesh = *body.mesh;
-  const int levels = mesh::coarser_count(mesh);
-  if (levels == 0 || !multigrid::several_ranks_have_work_for(numbering.count())) return nullptr;
   const auto springs = body.facet_springs();
-  return multigrid::make_slices({numbering.node, elasticity::coarse_functions(mesh, numbering.unknown, numbering.count(), levels), mesh.dimension(),
+  return multigrid::make_slices({numbering.node, coarse.functions(coarse.count), coarse.dimension,
                                  [&](const std::vector<char>& own) {
                                    elasticity::Share share = elasticity::share(mesh, body.material, springs, numbering, own);
                                    return multigrid::Share{std::move(share.lists), std::move(share.unknowns)};
@@ -91,9 +94,10 @@ std::shared_ptr<const algebra::SlicedMatrix> slices_of_stiffness(const Body& bod
                                  elasticity::assemble_share});
 }
 
+/// K, f and the offset.
 void assemble(const Body& body, const Numbering& numbering, bool slices, problem::Block& block) {
-  if (slices && block.kernel.cols() == 0)
-    if (auto K = slices_of_stiffness(body, numbering)) {
+  if (slices)
+    if (auto K = slices_of_stiffness(body, numbering, block.coarse)) {
       block.K = std::move(K);
       return set_load(body, numbering, block);
     }
@@ -104,22 +108,23 @@ void assemble(const Body& body, const Numbering& numbering, bool slices, problem
   block.offset = system.offset + broken_energy(body);
 }
 
-void add_body(const Body& body, bool slices, Model& model) {
+/// A block that is not assembled yet.
+void add_body(const Body& body, Model& model) {
   model.numbering.push_back(number(body));
   const Numbering& numbering = model.numbering.back();
   auto rigid = elasticity::rigid_modes(*body.mesh, numbering, body.facet_springs());
   problem::Block block;
   block.name = body.name;
+  block.f = algebra::Vector::Zero(numbering.count());
   block.node = numbering.node;
   block.kernel = std::move(rigid.modes);
   block.motions = std::move(rigid.motions);
-  assemble(body, numbering, slices, block);
   block.rigid = [mesh = body.mesh, unknown = numbering.unknown, count = numbering.count()] { return elasticity::all_rigid_motions(*mesh, unknown, count); };
   block.coarse = {mesh::coarser_count(*body.mesh), body.mesh->dimension(), [mesh = body.mesh, unknown = numbering.unknown, count = numbering.count()](int levels) {
                     return elasticity::coarse_functions(*mesh, unknown, count, levels);
                   }, body.mesh->topology().order};
-  model.nearly_free.push_back(nearly_free(body, numbering, block, model.softest));
-  problem::add(model.problem, std::move(block));
+  block.first = model.problem.unknowns();
+  model.problem.blocks.push_back(std::move(block));
 }
 
 void add_glue_rows(const Scene& scene, const Contact& contact, const FreeJumps& jumps, RowBuilder& builder) {
@@ -209,16 +214,24 @@ void require_moderate(const problem::Problem& problem, bool cut) {
 }  // namespace
 
 Model build(const Scene& scene, problem::Clock& clock, Monitor& monitor, const Loading& loading,
-            const std::optional<problem::Decomposition>& decomposition, bool slices) {
+            const std::optional<problem::Decomposition>& decomposition, const std::function<bool(const problem::Problem&)>& slices) {
   Stopwatch watch;
   Model model;
   for (const auto& body : scene.bodies) {
-    monitor.phase(text("assembling '", body->name, "' (", body->mesh->cell_count(), " cells)"));
     model.bodies.push_back(loading.applied_to(*body));
-    add_body(model.bodies.back(), slices && scene.bodies.size() == 1, model);
-    monitor.check();
+    add_body(model.bodies.back(), model);
   }
   set_rows(scene, loading, model);
+  const bool in_slices = slices && can_be_sliced(model.problem) && slices(model.problem);
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    const Body& body = model.bodies[b];
+    monitor.phase(text("assembling '", body.name, "' (", body.mesh->cell_count(), " cells)"));
+    problem::Block& block = model.problem.blocks[b];
+    assemble(body, model.numbering[b], in_slices, block);
+    problem::require_kernel(block.K, block.kernel, "'" + block.name + "'", block.motions);
+    model.nearly_free.push_back(nearly_free(body, model.numbering[b], block, model.softest));
+    monitor.check();
+  }
   require_moderate(model.problem, decomposition.has_value());
   if (decomposition) cut(*decomposition, model, monitor);
   clock.assembly += watch.seconds();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -79,9 +80,9 @@ std::vector<double> spread(const elasticity::Numbering& numbering, const algebra
 /// Assembles. Throws InputError for contradictory supports, for a contact that nodes fixed on both sides
 /// make impossible, for a body whose supports are lost in rounding beside its stiffness, and, with rows or subdomains, as
 /// problem::require_moderate(). Adds its time to clock.assembly. With a `decomposition` the bodies are also cut into subdomains by it: see cut().
-/// `slices`: several ranks may make the rows of K, each its own, for a method that takes it so.
+/// `slices`: may several ranks make the rows of K, each its own? Asked when all but K and f is known; none: they may not.
 Model build(const Scene& scene, problem::Clock& clock, Monitor& monitor, const Loading& loading = {},
-            const std::optional<problem::Decomposition>& decomposition = {}, bool slices = false);
+            const std::optional<problem::Decomposition>& decomposition = {}, const std::function<bool(const problem::Problem&)>& slices = {});
 /// "'b1' is nearly free: …" of the first three such bodies, and how many more there are.
 std::vector<std::string> describe_nearly_free(const Scene& scene, const Model& model);
 /// Puts another loading on a model: f (of subdomains, too) and c change, K and B stay. `bodies`: the scene's, unscaled, as

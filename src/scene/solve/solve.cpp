@@ -178,7 +178,11 @@ class History {
 
   void load(const Step& step, Monitor& monitor) {
     loading_.take(step, *scene_);
-    if (!built_) model_ = build(*scene_, clock_, monitor, loading_, method_.decomposition(), method_.takes_slices());
+    if (!built_) model_ = build(*scene_, clock_, monitor, loading_, method_.decomposition(), [&](const problem::Problem& p) {
+        if (method_) return method_.takes_slices();
+        const bool held = p.blocks[0].kernel.cols() == 0;  // else the choice needs K
+        return held && !condenser_ && solver::default_method(p) == solver::DefaultMethod::multigrid;
+      });
     if (built_ || (last_ && breaks_)) reload(*scene_, bodies_, loading_, model_, clock_);
     built_ = true;
     if (last_ && last_ == start_.after) require_same_rows(model_, last_->model());
