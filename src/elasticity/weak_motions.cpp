@@ -64,7 +64,7 @@ Volumes volumes(const mesh::Mesh& mesh, const MaterialField& material, const Num
           for (int a = 0; a < E::nodes; ++a) middle[i] += x[a][i] / E::nodes;
         for (int a = 0; a < E::nodes; ++a)
           for (int i = 0; i < E::dim; ++i) x[a][i] = (x[a][i] - middle[i]) / size;
-        const double volume = physical_gradient<E>(x, std::array<double, E::dim>{}, g);
+        const double volume = physical_gradient<E>(x, E::centre(), g);
         for (int a = 0; a < E::nodes; ++a) shares[k][mesh.cell(c)[a]] += volume;
         if (!is_free(mesh, numbering, c)) continue;
         if (material.varies() || !(bulk > 0)) {

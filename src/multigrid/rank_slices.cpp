@@ -98,6 +98,7 @@ RankSlices::RankSlices(const Shared& shared)
     take_diagonal();
   });
   workers_.made();
+  made_ = true;
 }
 
 RankSlices::RankSlices(Workers workers, Numbering numbering, HalfRows own) : RankSlices(workers, std::move(numbering)) {
@@ -106,6 +107,7 @@ RankSlices::RankSlices(Workers workers, Numbering numbering, HalfRows own) : Ran
   slice_ = std::make_unique<Slice>(ranks, std::move(own), idle_of(0));
   take_diagonal();
   workers_.made();
+  made_ = true;
 }
 
 RankSlices::RankSlices(Workers workers, Numbering numbering) : workers_(workers), numbering_(std::make_shared<const Numbering>(std::move(numbering))) {
@@ -114,6 +116,7 @@ RankSlices::RankSlices(Workers workers, Numbering numbering) : workers_(workers)
 }
 
 RankSlices::~RankSlices() {
+  if (!made_) return;  // an exception while it was made: the lock is held, and nobody was told
   const std::lock_guard lock(only_one());
   workers_.tell(Task::drop_slice);
 }

@@ -46,6 +46,7 @@ class RankSlices final : public algebra::SlicedMatrix {
   std::shared_ptr<const Numbering> numbering_;
   std::vector<int> unknown_;  ///< of each row; -1: none
   std::unique_ptr<Slice> slice_;
+  bool made_ = false;  ///< to its end: the other ranks have their slices
 };
 
 /// What another rank does for the constructors, for products and for entries.

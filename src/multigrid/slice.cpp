@@ -11,6 +11,7 @@ namespace dotyk::multigrid {
 namespace {
 
 HalfRows with_idle(const Ranks& ranks, HalfRows rows, const std::vector<int>& idle) {
+  fill_idle(rows, idle, 0);
   double sum = 0;
   for (int row = 0; row < rows.nodes() * rows.block; ++row) sum += rows.diagonal[static_cast<std::size_t>(row) * rows.block + row % rows.block];
   const double count = ranks.sum(static_cast<double>(rows.nodes()) * rows.block - static_cast<double>(idle.size()));
