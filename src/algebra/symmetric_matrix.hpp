@@ -13,25 +13,25 @@ namespace dotyk::algebra {
 
 using LongVector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
 
-/// A symmetric matrix whose rows several processes have. Its functions ask them.
+/// A symmetric matrix whose rows are distributed over several processes. Products and entries are asked of them.
 class SlicedMatrix {
  public:
   virtual ~SlicedMatrix() = default;
   virtual Vector times(const Vector& x) const = 0;
   virtual LongVector times(const LongVector& x) const = 0;  ///< in extended precision
   virtual Vector gross_times(const Vector& x) const = 0;    ///< |A| |x|
-  /// The lower triangle of the entries whose row or column is flagged.
+  /// The lower triangle, with the entries in rows and columns of flagged unknowns alone.
   virtual StoredMatrix near(const std::vector<char>& of) const = 0;
 
   const Vector& diagonal() const { return diagonal_; }
-  int most_entries() const { return most_entries_; }  ///< of a row
+  int most_entries() const { return most_entries_; }  ///< at least as many as any row has
 
  protected:
   Vector diagonal_;
   int most_entries_ = 0;
 };
 
-/// A symmetric matrix: its lower triangle, or rows that several processes have. Copies share it; it does not change.
+/// A symmetric matrix, stored as its lower triangle or distributed over several processes. It does not change, and copies share it.
 class SymmetricMatrix {
  public:
   SymmetricMatrix() = default;
@@ -39,7 +39,7 @@ class SymmetricMatrix {
   SymmetricMatrix(StoredMatrix lower) : content_(std::make_shared<Content>()) { content_->lower.swap(lower); }  // NOLINT
   SymmetricMatrix(std::shared_ptr<const SlicedMatrix> slices) : content_(std::make_shared<Content>()) { content_->slices = std::move(slices); }  // NOLINT
 
-  /// The whole lower triangle, which slices are put together to when it is first asked for.
+  /// The lower triangle. A distributed matrix is gathered when this is called first, and is kept.
   const SparseMatrix& lower() const {
     static const SparseMatrix none;
     if (!content_) return none;

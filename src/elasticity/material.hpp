@@ -44,7 +44,8 @@ class MaterialField {
   MaterialField(std::vector<double> E, std::vector<double> nu, int dimension, Plane plane)
       : E_(std::move(E)), nu_(std::move(nu)), dimension_(dimension), plane_(plane) {}
 
-  /// The field as lists of numbers, and one from such lists.
+  /// The field as so many lists of numbers, and a field from the first ones of such lists.
+  static constexpr int kWholeLists = 1, kRealLists = 3;
   Lists lists() const;
   explicit MaterialField(const Lists& lists);
 

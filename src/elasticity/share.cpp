@@ -8,9 +8,9 @@ namespace dotyk::elasticity {
 
 namespace {
 
-// What the lists are after those of the material, in their order.
-enum Whole { kElement = 1, kCells, kFixed, kSpringFacets };
-enum Real { kCoordinates = 3, kSprings };
+// The places of the lists. The first ones are the material's.
+enum Whole { kElement = MaterialField::kWholeLists, kCells, kFixed, kSpringFacets };
+enum Real { kCoordinates = MaterialField::kRealLists, kSprings };
 
 }  // namespace
 

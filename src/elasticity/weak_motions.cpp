@@ -154,8 +154,8 @@ struct Motions {
   }
 };
 
-/// FᵀKF. Motions that are rigid on a cell do no work there, and a dilatation strains all of it alike: only cells with prescribed components, where F is zero,
-/// need their matrices.
+/// FᵀKF. Rigid motions do no work in a cell that is free, and a dilatation strains such a cell uniformly: Volumes::dilated is its energy. Only cells with
+/// prescribed components, where F is zero, need their stiffness. Of curved or distorted cells the volume is approximate.
 template <class E>
 DenseMatrix energies(const mesh::Mesh& mesh, const MaterialField& material, const std::vector<FacetSpring>& springs, const Numbering& numbering, const Motions& motions) {
   constexpr int d = E::dim, count = (d == 2 ? 3 : 6) + 1;

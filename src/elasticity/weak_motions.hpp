@@ -27,7 +27,7 @@ struct WeakMotions {
 /// own size, so that the statement of small displacements has lost its meaning, and six digits of the
 /// deformation are lost beside the rigid part.
 ///
-/// Cost: one pass over the cells compares the least Rayleigh quotient of rigid motions, an upper bound of the supports' stiffness, with that of a dilatation.
+/// Cost: two passes over the cells compare the least Rayleigh quotient of rigid motions, an upper bound of the supports' stiffness, with that of a dilatation.
 /// Only where their ratio is below 1e-3 there follow one factorisation of K and twice as many solutions as motions are held.
 /// `K`: on the unknowns; `kernel`: its exact rigid modes, unknowns × modes.
 WeakMotions weak_motions(const mesh::Mesh& mesh, const MaterialField& material, const std::vector<FacetSpring>& springs, const Numbering& numbering,

@@ -29,12 +29,12 @@ struct Matrix {
   /// is no coarser mesh, and all levels are aggregates.
   const std::vector<algebra::SparseRows>* coarse = nullptr;
   int dimension = 3;
-  /// Receives the matrix of the next coarser mesh: PᵀKP, in slices as this matrix is, where K is the matrix of displacements, SᵀAS for A = `lower` and S =
+  /// Receives the matrix of the next coarser mesh: PᵀKP, in slices except where several ranks would have too little work, where K is the matrix of displacements, SᵀAS for A = `lower` and S =
   /// `unknowns`, without `changed`, and P the first of `coarse` without its empty columns. It stays as it is where `coarse` is null. Null: nobody asks.
   algebra::SymmetricMatrix* coarser = nullptr;
   /// Other numbers of some entries, as for set(), with which `lower` is positive definite; null: none.
   const algebra::Triplets* changed = nullptr;
-  /// The matrix as the ranks have it, by make_slices() from the same `node` and `coarse`; `lower` has no numbers then. Null: `lower` is the matrix.
+  /// The matrix as the ranks have it, by make_slices() from the same `node` and `coarse`; of `lower` only the size counts then. Null: `lower` is the matrix.
   const algebra::SlicedMatrix* slices = nullptr;
   /// solve() gives up when its rate of convergence foretells that twelve digits will take so many more.
   double most_iterations = std::numeric_limits<double>::infinity();

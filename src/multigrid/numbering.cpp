@@ -187,6 +187,12 @@ bool Numbering::shares_by_functions(const std::vector<algebra::SparseRows>& coar
   return !coarse.empty() && coarse.front().cols() / dimension >= kEnough * ranks;
 }
 
+algebra::Vector Numbering::of_unknowns(const std::vector<double>& by_rows) const {
+  algebra::Vector x(static_cast<Eigen::Index>(slot_.size()));
+  for (std::size_t i = 0; i < slot_.size(); ++i) x[static_cast<Eigen::Index>(i)] = by_rows[slot_[i]];
+  return x;
+}
+
 int Numbering::rank_of(int row) const {
   return static_cast<int>(std::upper_bound(first_[0].begin(), first_[0].end(), row) - first_[0].begin()) - 1;
 }

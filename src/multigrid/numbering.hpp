@@ -14,7 +14,7 @@ namespace dotyk::multigrid {
 class Numbering {
  public:
   Numbering(const Matrix& matrix, int ranks);
-  /// Of the next coarser mesh's matrix, on the functions that have entries; the same ranks have them.
+  /// Numbers the unknowns of PᵀKP, the matrix of the next coarser mesh: the functions that have entries. Each stays with the rank that it has in `finer`.
   Numbering(const Numbering& finer, const algebra::SparseRows& functions, int dimension);
   /// Has a coarser mesh enough nodes? Else the nodes of the finest are shared out by the pattern of the matrix.
   static bool shares_by_functions(const std::vector<algebra::SparseRows>& coarse, int dimension, int ranks);
@@ -27,6 +27,15 @@ class Numbering {
   /// Of each rank the first row, and the number of all.
   const std::vector<int>& first(int level) const { return first_[level]; }
   int rank_of(int row) const;  ///< of the finest level
+
+  /// A vector by rows of the finest level, zero at idle ones; of_unknown(i): its numbers.
+  template <class Number>
+  std::vector<double> by_rows(const Number& of_unknown) const {
+    std::vector<double> all(static_cast<std::size_t>(first_[0].back()), 0.0);
+    for (std::size_t i = 0; i < slot_.size(); ++i) all[slot_[i]] = of_unknown(static_cast<Eigen::Index>(i));
+    return all;
+  }
+  algebra::Vector of_unknowns(const std::vector<double>& by_rows) const;  ///< the way back
 
  private:
   int block_ = 1;

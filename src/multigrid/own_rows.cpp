@@ -1,8 +1,6 @@
 #include "multigrid/own_rows.hpp"
 
 #include <algorithm>
-#include <tuple>
-#include <utility>
 
 namespace dotyk::multigrid {
 
@@ -64,19 +62,6 @@ void fill_idle(HalfRows& rows, const std::vector<int>& idle, double number) {
   for (const int row : idle) {
     const int node = row / rows.block, r = row % rows.block;
     if (rows.own(node)) rows.place(node, node).at(rows.block, r, r) = number;
-  }
-}
-
-/// Sorts the entries of rows, or columns, first … last − 1 by their indices.
-void sort_entries(const int* starts, int first, int last, int* indices, double* values) {
-  std::vector<std::pair<int, double>> one;
-  for (int i = first; i < last; ++i) {
-    const int begin = starts[i], end = starts[i + 1];
-    if (std::is_sorted(indices + begin, indices + end)) continue;
-    one.clear();
-    for (int k = begin; k < end; ++k) one.emplace_back(indices[k], values[k]);
-    std::ranges::sort(one);
-    for (int k = begin; k < end; ++k) std::tie(indices[k], values[k]) = one[k - begin];
   }
 }
 

@@ -100,6 +100,11 @@ void start_petsc(bool spawns) {
   static_cast<void>(started);
 }
 
+std::mutex& only_one() {
+  static std::mutex mutex;
+  return mutex;
+}
+
 bool petsc_started() {
   PetscBool started = PETSC_FALSE;
   return PetscInitialized(&started) == 0 && started == PETSC_TRUE;

@@ -3,6 +3,7 @@
 
 #include <petscksp.h>
 
+#include <mutex>
 #include <utility>
 
 namespace dotyk::multigrid {
@@ -11,6 +12,9 @@ namespace dotyk::multigrid {
 /// others, or was started by one that does.
 void start_petsc(bool spawns = false);
 bool petsc_started();
+
+/// Calls of PETSc and MPI are made while this is held.
+std::mutex& only_one();
 
 /// Throws std::runtime_error with PETSc's words where `code` is not 0.
 void check(PetscErrorCode code);

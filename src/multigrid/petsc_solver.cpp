@@ -29,7 +29,7 @@ class PetscSolver final : public algebra::SpdSolver {
       if (matrix.changed) first = changes(*matrix.changed, {}, {}, *numbering_, ranks.count());
       const bool asked = matrix.coarser && geometric_;
       const Workers of_coarser = workers_.next();
-      cycle_ = std::make_unique<Cycle>(ranks, share_out(pieces, asked ? of_coarser.solver() : 0, first), first[0]);
+      cycle_ = std::make_unique<Cycle>(ranks, share_out(pieces, asked ? of_coarser.number() : 0, first), first[0]);
       if (asked)
         coarser = std::make_shared<const RankSlices>(of_coarser, Numbering(*numbering_, matrix.coarse->front(), matrix.dimension), cycle_->take_coarser());
     });
@@ -60,21 +60,16 @@ class PetscSolver final : public algebra::SpdSolver {
   }
 
   algebra::Vector solve(const algebra::Vector& b, double tolerance, algebra::Vector* left) override {
-    const std::vector<int>& slot = numbering_->slot();
-    algebra::Vector x = algebra::Vector::Constant(static_cast<Eigen::Index>(slot.size()), std::numeric_limits<double>::quiet_NaN());
-    if (b.size() != x.size()) throw std::runtime_error(text("a right-hand side of ", b.size(), " numbers for ", x.size(), " unknowns"));
+    const auto unknowns = static_cast<Eigen::Index>(numbering_->slot().size());
+    if (b.size() != unknowns) throw std::runtime_error(text("a right-hand side of ", b.size(), " numbers for ", unknowns, " unknowns"));
     const std::lock_guard lock(only_one());
     const Ranks& ranks = workers_.ranks();
     const Cycle::Solution solution = ranks.together([&] { return solve_together(b, tolerance); });
     iterations_ += solution.iterations;
     if (solution.thrown) std::rethrow_exception(solution.thrown);
-    if (!solution.found) return x;
-    const auto of_unknowns = [&](const std::vector<double>& all) {
-      for (std::size_t i = 0; i < slot.size(); ++i) x[static_cast<Eigen::Index>(i)] = all[slot[i]];
-    };
-    if (left) of_unknowns(solution.left), *left = x;
-    of_unknowns(solution.x);
-    return x;
+    if (!solution.found) return algebra::Vector::Constant(unknowns, std::numeric_limits<double>::quiet_NaN());
+    if (left) *left = numbering_->of_unknowns(solution.left);
+    return numbering_->of_unknowns(solution.x);
   }
 
   double bytes() const override {
@@ -100,7 +95,7 @@ class PetscSolver final : public algebra::SpdSolver {
       parallel_for(static_cast<int>(some.size()), [&](int k) { some[k] = pieces.of(from + k); });
       if (from == 0) workers_.tell(Task::make);
       for (Piece& piece : some) {
-        piece.slices = slices_ ? slices_->workers().solver() : 0, piece.coarser = coarser;
+        piece.slices = slices_ ? slices_->workers().number() : 0, piece.coarser = coarser;
         if (from == 0) own = std::move(piece);
         else send(ranks, from, piece), send(ranks, from, first[from]);
         piece = {}, ++from;
@@ -112,9 +107,8 @@ class PetscSolver final : public algebra::SpdSolver {
   /// Of all ranks, by the numbers of Numbering.
   Cycle::Solution solve_together(const algebra::Vector& b, double tolerance) {
     const Ranks& ranks = workers_.ranks();
-    const std::vector<int>&first = numbering_->first(0), &slot = numbering_->slot();
-    std::vector<double> all(static_cast<std::size_t>(first.back()), 0.0);
-    for (std::size_t i = 0; i < slot.size(); ++i) all[slot[i]] = b[static_cast<Eigen::Index>(i)];
+    const std::vector<int>& first = numbering_->first(0);
+    std::vector<double> all = numbering_->by_rows([&](auto i) { return b[i]; });
     workers_.tell(Task::solve);
     for (int r = 1; r < ranks.count(); ++r) {
       ranks.send(r, std::vector<double>{tolerance, most_});
@@ -167,5 +161,5 @@ DOTYK_DOOR dotyk::algebra::SlicedMatrix* dotyk_multigrid_slices(const dotyk::mul
   using namespace dotyk::multigrid;
   if (!Numbering::shares_by_functions(matrix.coarse, matrix.dimension, ranks_now())) return nullptr;
   const std::lock_guard lock(only_one());
-  return new RankSlices(matrix);
+  return new RankSlices(workers_for(static_cast<double>(matrix.node.size())), matrix);
 }

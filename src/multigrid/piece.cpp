@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <stdexcept>
-#include <tuple>
 #include <utility>
 
 #include "algebra/entries_of.hpp"
@@ -23,12 +21,14 @@ struct Range {
 
 Range range_of(int rank, const Numbering& numbering, int level) { return {numbering.first(level)[rank], numbering.first(level)[rank + 1]}; }
 
+constexpr const char* kNotPositive = "multigrid: the matrix is no lower triangle, or its diagonal is not positive";
+
 /// Mean of the diagonal. Throws where that is not positive, or no lower triangle's.
 double mean_diagonal(const algebra::SparseMatrix& lower) {
   double sum = 0;
   for (int j = 0; j < lower.cols(); ++j) {
     const double* entry = algebra::diagonal_entry(lower, j);
-    if (!entry || !(*entry > 0)) throw std::runtime_error("multigrid: the matrix is no lower triangle, or its diagonal is not positive");
+    if (!entry || !(*entry > 0)) throw std::runtime_error(kNotPositive);
     sum += *entry;
   }
   return sum / static_cast<double>(lower.cols());
@@ -112,6 +112,7 @@ Pieces::Pieces(const Matrix& matrix, const Numbering& numbering) : matrix_(matri
   if (!matrix.lower.isCompressed() || static_cast<std::size_t>(matrix.lower.rows()) != matrix.node.size())
     throw std::runtime_error("multigrid: the matrix is not compressed, or nodes are not given for each unknown");
   if (!matrix.slices) finest_ = source(matrix.lower);
+  else if (!(matrix.slices->diagonal().minCoeff() > 0)) throw std::runtime_error(kNotPositive);
   const int meshes = matrix.coarse ? static_cast<int>(matrix.coarse->size()) : 0;
   if (meshes == 0 || aggregates_follow(numbering.first(meshes).back(), numbering.first(0).back())) near_kernel_ = matrix.near_kernel();
   if (!matrix.displaced) return;

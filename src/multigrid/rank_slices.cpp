@@ -1,16 +1,16 @@
 #include "multigrid/rank_slices.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <mutex>
+#include <numeric>
 
 #include "base/parallel.hpp"
 #include "multigrid/own_rows.hpp"
+#include "multigrid/petsc_session.hpp"
 
 namespace dotyk::multigrid {
-
-std::mutex& only_one() {
-  static std::mutex mutex;
-  return mutex;
-}
 
 namespace {
 
@@ -25,22 +25,30 @@ Rows receive_full(const Ranks& ranks, int from) {
   return rows;
 }
 
-/// Where a rank's rows are, by the numbers of Numbering.
-struct Place {
+/// Which rows a rank has, counted as in Numbering.
+struct OwnNumbers {
   int block = 1, first = 0, nodes = 0;  ///< rows of a node; own nodes
   std::vector<int> slot = {};           ///< row of each unknown of the rank's share
+  std::vector<int> idle = {};           ///< own rows without unknown
 };
 
-void send(const Ranks& ranks, int to, const Lists& lists, const Place& place, const std::vector<int>& idle) {
-  ranks.send(to, std::vector<int>{place.block, place.first, place.nodes, static_cast<int>(lists.whole.size()), static_cast<int>(lists.real.size())});
-  ranks.send(to, place.slot);
+void send(const Ranks& ranks, int to, const Lists& lists, const OwnNumbers& own) {
+  ranks.send(to, std::vector<int>{own.block, own.first, own.nodes, static_cast<int>(lists.whole.size()), static_cast<int>(lists.real.size())});
+  ranks.send(to, own.slot), ranks.send(to, own.idle);
   for (const auto& list : lists.whole) ranks.send(to, list);
   for (const auto& list : lists.real) ranks.send(to, list);
-  ranks.send(to, idle);
 }
 
-HalfRows assembled(Assemble assemble, Lists lists, const Place& place) {
-  return own_rows(assemble(std::move(lists)), place.slot, place.block, place.first, place.nodes);
+HalfRows assembled(Assemble assemble, Lists lists, const OwnNumbers& own) {
+  return own_rows(assemble(std::move(lists)), own.slot, own.block, own.first, own.nodes);
+}
+
+/// Rank 0 learns the diagonal in take_diagonal().
+std::unique_ptr<Slice> told_slice(const Ranks& ranks, HalfRows rows, const std::vector<int>& idle) {
+  auto slice = std::make_unique<Slice>(ranks, std::move(rows), idle);
+  ranks.send(0, slice->diagonal());
+  ranks.send(0, std::vector<int>{slice->most_entries()});
+  return slice;
 }
 
 }  // namespace
@@ -48,22 +56,19 @@ HalfRows assembled(Assemble assemble, Lists lists, const Place& place) {
 std::unique_ptr<Slice> receive_rest(const Ranks& ranks, HalfRows rows) {
   std::vector<int> idle;
   ranks.receive(0, idle);
-  auto slice = std::make_unique<Slice>(ranks, std::move(rows), idle);
-  ranks.send(0, slice->diagonal());
-  ranks.send(0, std::vector<int>{slice->most_entries()});
-  return slice;
+  return told_slice(ranks, std::move(rows), idle);
 }
 
 std::unique_ptr<Slice> receive_slice(const Ranks& ranks, Assemble assemble) {
   std::vector<int> sizes;
   ranks.receive(0, sizes);
-  Place place{sizes[0], sizes[1], sizes[2]};
-  ranks.receive(0, place.slot);
+  OwnNumbers own{sizes[0], sizes[1], sizes[2]};
+  ranks.receive(0, own.slot), ranks.receive(0, own.idle);
   Lists lists;
   lists.whole.resize(static_cast<std::size_t>(sizes[3])), lists.real.resize(static_cast<std::size_t>(sizes[4]));
   for (auto& list : lists.whole) ranks.receive(0, list);
   for (auto& list : lists.real) ranks.receive(0, list);
-  return receive_rest(ranks, assembled(assemble, std::move(lists), place));
+  return told_slice(ranks, assembled(assemble, std::move(lists), own), own.idle);
 }
 
 void multiply(const Ranks& ranks, Slice& slice) {
@@ -91,8 +96,7 @@ Numbering numbering_of(const Shared& shared, int ranks) {
 
 }  // namespace
 
-RankSlices::RankSlices(const Shared& shared)
-    : RankSlices(workers_for(static_cast<double>(shared.node.size())), numbering_of(shared, ranks_now())) {
+RankSlices::RankSlices(Workers workers, const Shared& shared) : RankSlices(workers, numbering_of(shared, workers.ranks().count())) {
   workers_.ranks().together([&] {
     slice_ = share_out(shared);
     take_diagonal();
@@ -134,25 +138,25 @@ std::unique_ptr<Slice> RankSlices::share_out(const Shared& matrix) const {
   const std::vector<int>&slot = numbering_->slot(), &first = numbering_->first(0);
   const int block = numbering_->block();
   std::vector<Share> some;
-  std::vector<Place> places;
+  std::vector<OwnNumbers> numbers;
   for (int end = ranks.count(), begin; end > 0; end = begin) {
     begin = std::max(0, end - cores());
-    some.assign(static_cast<std::size_t>(end - begin), {}), places.assign(some.size(), {});
+    some.assign(static_cast<std::size_t>(end - begin), {}), numbers.assign(some.size(), {});
     parallel_for(static_cast<int>(some.size()), [&](int k) {
       const int from = first[begin + k], to = first[begin + k + 1];
       std::vector<char> own(slot.size());
       for (std::size_t i = 0; i < own.size(); ++i) own[i] = slot[i] >= from && slot[i] < to;
       some[k] = matrix.share(own);
-      places[k] = {block, from / block, (to - from) / block};
-      for (const int unknown : some[k].unknowns) places[k].slot.push_back(slot[unknown]);
+      numbers[k] = {block, from / block, (to - from) / block, {}, idle_of(begin + k)};
+      for (const int unknown : some[k].unknowns) numbers[k].slot.push_back(slot[unknown]);
     });
     for (int r = std::max(1, begin); r < end; ++r) {
       workers_.tell(Task::slice, r);
-      send(ranks, r, some[r - begin].lists, places[r - begin], idle_of(r));
+      send(ranks, r, some[r - begin].lists, numbers[r - begin]);
       some[r - begin] = {};
     }
   }
-  return std::make_unique<Slice>(ranks, assembled(matrix.assemble, std::move(some[0].lists), places[0]), idle_of(0));
+  return std::make_unique<Slice>(ranks, assembled(matrix.assemble, std::move(some[0].lists), numbers[0]), numbers[0].idle);
 }
 
 void RankSlices::take_diagonal() {
@@ -165,21 +169,7 @@ void RankSlices::take_diagonal() {
     all.insert(all.end(), part.begin(), part.end());
     most_entries_ = std::max(most_entries_, most[0]);
   }
-  diagonal_ = of_unknowns(all);
-}
-
-template <class Number>
-std::vector<double> RankSlices::by_rows(const Number& of_unknown) const {
-  std::vector<double> all(unknown_.size(), 0.0);
-  for (std::size_t i = 0; i < numbering_->slot().size(); ++i) all[numbering_->slot()[i]] = of_unknown(static_cast<Eigen::Index>(i));
-  return all;
-}
-
-Vector RankSlices::of_unknowns(const std::vector<double>& by_rows) const {
-  const std::vector<int>& slot = numbering_->slot();
-  Vector x(static_cast<Eigen::Index>(slot.size()));
-  for (std::size_t i = 0; i < slot.size(); ++i) x[static_cast<Eigen::Index>(i)] = by_rows[slot[i]];
-  return x;
+  diagonal_ = numbering_->of_unknowns(all);
 }
 
 RankSlices::Parts RankSlices::product(Slice::Product how, Parts x) const {
@@ -202,18 +192,47 @@ RankSlices::Parts RankSlices::product(Slice::Product how, Parts x) const {
 }
 
 Vector RankSlices::times(const Vector& x) const {
-  return of_unknowns(product(Slice::Product::plain, {by_rows([&](auto i) { return x[i]; })})[0]);
+  return numbering_->of_unknowns(product(Slice::Product::plain, {numbering_->by_rows([&](auto i) { return x[i]; })})[0]);
 }
 
 Vector RankSlices::gross_times(const Vector& x) const {
-  return of_unknowns(product(Slice::Product::gross, {by_rows([&](auto i) { return std::abs(x[i]); })})[0]);
+  return numbering_->of_unknowns(product(Slice::Product::gross, {numbering_->by_rows([&](auto i) { return std::abs(x[i]); })})[0]);
 }
 
 LongVector RankSlices::times(const LongVector& x) const {
   const auto high = [&](auto i) { return static_cast<double>(x[i]); };
-  const Parts y = product(Slice::Product::precise, {by_rows(high), by_rows([&](auto i) { return static_cast<double>(x[i] - high(i)); })});
-  return of_unknowns(y[0]).cast<long double>() + of_unknowns(y[1]).cast<long double>();
+  const Parts y = product(Slice::Product::precise, {numbering_->by_rows(high), numbering_->by_rows([&](auto i) { return static_cast<double>(x[i] - high(i)); })});
+  return numbering_->of_unknowns(y[0]).cast<long double>() + numbering_->of_unknowns(y[1]).cast<long double>();
 }
+
+namespace {
+
+/// A lower triangle, compressed, columns sorted. each(begin, end, visit) calls visit(row, column, number) for the entries in columns begin … end − 1, in any
+/// order. Several threads call it, twice.
+template <class Each>
+algebra::StoredMatrix lower_triangle(int size, const Each& each) {
+  constexpr int kFew = 10'000;  // columns, for a thread
+  const auto each_range = [&](const auto& work) { parallel_ranges(size, threads_for(size, kFew), [&](int, int first, int end) { work(first, end); }); };
+  algebra::StoredMatrix lower;
+  lower.resize(size, size);
+  int* starts = lower.outerIndexPtr();
+  each_range([&](int first, int end) { each(first, end, [&](int, int column, double) { ++starts[column + 1]; }); });
+  std::partial_sum(starts, starts + size + 1, starts);
+  lower.resizeNonZeros(starts[size]);
+  int* rows = lower.innerIndexPtr();
+  double* numbers = lower.valuePtr();
+  each_range([&](int first, int end) {
+    std::vector<int> next(starts + first, starts + end);
+    each(first, end, [&](int row, int column, double number) {
+      const int at = next[column - first]++;
+      rows[at] = row, numbers[at] = number;
+    });
+    sort_entries(starts, first, end, rows, numbers);
+  });
+  return lower;
+}
+
+}  // namespace
 
 algebra::StoredMatrix RankSlices::near(const std::vector<char>& of) const {
   const std::lock_guard lock(only_one());

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <mutex>
 #include <vector>
 
 #include "multigrid/numbering.hpp"
@@ -11,14 +10,11 @@
 
 namespace dotyk::multigrid {
 
-/// Each call of PETSc or MPI holds it.
-std::mutex& only_one();
-
-/// The other ranks have a Slice each, and do what this one tells them.
+/// Each rank has a Slice. The other ranks do what rank 0 tells them.
 class RankSlices final : public algebra::SlicedMatrix {
  public:
-  explicit RankSlices(const Shared& matrix);
-  /// Of rows that the ranks have; `own`: of rank 0. The others call receive_rest().
+  RankSlices(Workers workers, const Shared& matrix);
+  /// Takes rows that the ranks have already; `own`: rank 0's. The others call receive_rest().
   RankSlices(Workers workers, Numbering numbering, HalfRows own);
   ~RankSlices() override;
 
@@ -37,10 +33,7 @@ class RankSlices final : public algebra::SlicedMatrix {
   std::unique_ptr<Slice> share_out(const Shared& matrix) const;
   std::vector<int> idle_of(int rank) const;
   void take_diagonal();
-  template <class Number>
-  std::vector<double> by_rows(const Number& of_unknown) const;
   Parts product(Slice::Product how, Parts x) const;
-  algebra::Vector of_unknowns(const std::vector<double>& by_rows) const;
 
   Workers workers_;
   std::shared_ptr<const Numbering> numbering_;
@@ -49,7 +42,7 @@ class RankSlices final : public algebra::SlicedMatrix {
   bool made_ = false;  ///< to its end: the other ranks have their slices
 };
 
-/// What another rank does for the constructors, for products and for entries.
+/// What ranks other than 0 do when rank 0 makes slices, multiplies with them, or asks for entries.
 std::unique_ptr<Slice> receive_slice(const Ranks& ranks, Assemble assemble);
 std::unique_ptr<Slice> receive_rest(const Ranks& ranks, HalfRows rows);
 void multiply(const Ranks& ranks, Slice& slice);

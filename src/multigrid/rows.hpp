@@ -1,6 +1,8 @@
 #pragma once
 
 #include <algorithm>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 namespace dotyk::multigrid {
@@ -18,5 +20,18 @@ struct Rows {
     row.clear();
   }
 };
+
+/// Sorts the entries of rows, or columns, first … last − 1 by their indices.
+inline void sort_entries(const int* starts, int first, int last, int* indices, double* values) {
+  std::vector<std::pair<int, double>> one;
+  for (int i = first; i < last; ++i) {
+    const int begin = starts[i], end = starts[i + 1];
+    if (std::is_sorted(indices + begin, indices + end)) continue;
+    one.clear();
+    for (int k = begin; k < end; ++k) one.emplace_back(indices[k], values[k]);
+    std::ranges::sort(one);
+    for (int k = begin; k < end; ++k) std::tie(indices[k], values[k]) = one[k - begin];
+  }
+}
 
 }  // namespace dotyk::multigrid

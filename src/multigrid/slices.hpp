@@ -10,27 +10,23 @@
 
 namespace dotyk::multigrid {
 
-/// What a rank makes its rows from.
-struct Share {
-  Lists lists;
-  std::vector<int> unknowns;  ///< of the whole matrix, ascending: rows of what Assemble makes
-};
-/// The lower triangle of a share's matrix.
+/// Assembles the lower triangle of a share's matrix.
 using Assemble = algebra::StoredMatrix (*)(Lists lists);
 
-/// A symmetric matrix before it is made. Nothing of it is kept.
+/// A symmetric matrix that is to be assembled. Nothing of it is kept.
 struct Shared {
   const std::vector<int>& node;                     ///< of each unknown, ascending, as in Matrix
   const std::vector<algebra::SparseRows>& coarse;   ///< as in Matrix
   int dimension;                                    ///< as in Matrix
-  /// The share in which all entries in rows of the flagged unknowns are whole. Several threads call it.
+  /// A share whose matrix has the right entries in rows of the flagged unknowns. Several threads call it.
   std::function<Share(const std::vector<char>& own)> share;
   Assemble assemble;                                ///< as the other ranks have it from work_for_rank_0()
 };
 
 /// Are there several ranks, and does each have enough to do with so many unknowns?
 bool several_ranks_have_work_for(double unknowns);
-/// Null where the nodes of coarser meshes are too few to share them out. Only where several_ranks_have_work_for() is true.
+/// Assembles the matrix on all ranks, each its own rows. To be called only where several_ranks_have_work_for() is true. Null where the next coarser mesh has
+/// too few nodes to be shared out.
 std::shared_ptr<const algebra::SlicedMatrix> make_slices(const Shared& matrix);
 
 }  // namespace dotyk::multigrid

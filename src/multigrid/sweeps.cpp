@@ -60,7 +60,7 @@ void add_transposed(int n, double factor, const double* A, const double* x, doub
 
 void Sweeps::take_border() {
   const int n = A_.block();
-  border_ = {};
+  border_.starts.assign(1, 0), border_.columns.clear(), border_.values.clear();  // their room is kept
   for (const int node : A_.border()) {
     A_.each_block(node, [&](int other, const double* block, HalfMatrix::Read read) {
       if (other >= A_.nodes()) return;

@@ -52,7 +52,7 @@ void join(MPI_Comm others, bool spawned) {
   watch_for_death(std::move(companions), !spawned);
 }
 
-/// Solvers that live, on rank 0.
+/// Solvers and slices that live, on rank 0.
 int& living() {
   static int count = 0;
   return count;
@@ -121,7 +121,7 @@ void Workers::tell(Task task) const {
   for (int r = 1; r < ranks_.count(); ++r) tell(task, r);
 }
 
-void Workers::tell(Task task, int rank) const { ranks_.send(rank, std::vector<int>{static_cast<int>(task), solver_}); }
+void Workers::tell(Task task, int rank) const { ranks_.send(rank, std::vector<int>{static_cast<int>(task), number_}); }
 
 void spawn_workers(int ranks, const std::string& program) {
   if (petsc_started())

@@ -13,17 +13,17 @@ enum class Task : int { make, set, solve, drop, slice, multiply, some, drop_slic
 /// How rank 0 tells the other ranks what to do for one solver, or for the slices of one matrix. The data of a task are sent after it.
 class Workers {
  public:
-  Workers(const Ranks& ranks, int solver) : ranks_(ranks), solver_(solver) {}
+  Workers(const Ranks& ranks, int number) : ranks_(ranks), number_(number) {}
   const Ranks& ranks() const { return ranks_; }
   void tell(Task task) const;
-  void tell(Task task, int rank) const;
-  Workers next() const;  ///< of the same ranks, for another
-  int solver() const { return solver_; }  ///< its number, from 1
-  void made() const;  ///< the solver, or the slices, live, until they tell `drop`
+  void tell(Task task, int rank) const;  ///< the same to one rank
+  Workers next() const;                  ///< the same ranks, for another solver or other slices
+  int number() const { return number_; }  ///< by which the ranks know the solver or the slices, from 1
+  void made() const;  ///< the solver, or the slices, live, until they tell `drop` or `drop_slice`
 
  private:
   Ranks ranks_;
-  int solver_;
+  int number_;
 };
 
 /// Are there several ranks, and shares of so many unknowns large enough?

@@ -108,8 +108,8 @@ std::vector<std::vector<int>> kinds(const Problem& problem) {
 }
 
 /// The part of each block.
-void take_stiffness(Problem& problem, const algebra::SymmetricMatrix& all) {
-  if (problem.blocks.size() == 1) return void(problem.blocks[0].K = all);
+void take_stiffness(Problem& problem, algebra::SymmetricMatrix all) {
+  if (problem.blocks.size() == 1) return void(problem.blocks[0].K = std::move(all));
   for (Block& block : problem.blocks) block.K = SparseMatrix(all.lower().block(block.first, block.first, block.size(), block.size()));
 }
 
@@ -154,7 +154,7 @@ std::vector<SparseRows> coarse_functions(const Problem& problem) {
   return all;
 }
 
-Coarser coarser(const Problem& problem, const algebra::SymmetricMatrix& stiffness) {
+Coarser coarser(const Problem& problem, algebra::SymmetricMatrix stiffness) {
   const int levels = coarser_meshes(problem);
   if (levels == 0) throw std::logic_error("coarser: no coarser meshes are known");
   Coarser out;
@@ -171,7 +171,7 @@ Coarser coarser(const Problem& problem, const algebra::SymmetricMatrix& stiffnes
     out.problem.blocks.push_back(std::move(coarse.block));
     out.functions.push_back(std::move(coarse.functions));
   }
-  if (stiffness.rows() > 0) take_stiffness(out.problem, stiffness);
+  if (stiffness.rows() > 0) take_stiffness(out.problem, std::move(stiffness));
   out.problem.B = algebra::from_triplets<SparseRows>(problem.rows(), out.problem.unknowns(), entries);
   out.problem.c = problem.c, out.problem.groups = problem.groups, out.problem.friction = problem.friction;
   out.problem.chains = problem.chains, out.problem.measure = problem.measure, out.problem.row_name = problem.row_name;

@@ -29,6 +29,6 @@ struct Coarser {
 };
 /// `stiffness`: PᵀKP of all blocks, P the functions of the next coarser meshes without the empty ones; empty: it is computed. Throws
 /// std::logic_error where there are no coarser meshes.
-Coarser coarser(const Problem& problem, const algebra::SymmetricMatrix& stiffness = {});
+Coarser coarser(const Problem& problem, algebra::SymmetricMatrix stiffness = {});
 
 }  // namespace dotyk::problem

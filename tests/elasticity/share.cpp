@@ -21,7 +21,7 @@ TEST_CASE("a share has the rows of its unknowns: all elements, springs, supports
         const double size = algebra::Vector(whole.diagonal()).maxCoeff();
         std::vector<char> own(static_cast<std::size_t>(numbering.count()), 0);
         for (int i = 0; i < numbering.count(); ++i) own[i] = m.point(numbering.node[i])[1] > 0.5;
-        elasticity::Share share = elasticity::share(m, *material, springs, numbering, own);
+        Share share = elasticity::share(m, *material, springs, numbering, own);
         CHECK(static_cast<int>(share.unknowns.size()) < numbering.count());
         const algebra::SparseMatrix part = elasticity::assemble_share(std::move(share.lists));
         REQUIRE(part.rows() == static_cast<Eigen::Index>(share.unknowns.size()));

@@ -87,10 +87,7 @@ std::shared_ptr<const algebra::SlicedMatrix> slices_of_stiffness(const Body& bod
   const mesh::Mesh& mesh = *body.mesh;
   const auto springs = body.facet_springs();
   return multigrid::make_slices({numbering.node, coarse.functions(coarse.count), coarse.dimension,
-                                 [&](const std::vector<char>& own) {
-                                   elasticity::Share share = elasticity::share(mesh, body.material, springs, numbering, own);
-                                   return multigrid::Share{std::move(share.lists), std::move(share.unknowns)};
-                                 },
+                                 [&](const std::vector<char>& own) { return elasticity::share(mesh, body.material, springs, numbering, own); },
                                  elasticity::assemble_share});
 }
 
@@ -221,6 +218,7 @@ Model build(const Scene& scene, problem::Clock& clock, Monitor& monitor, const L
     model.bodies.push_back(loading.applied_to(*body));
     add_body(model.bodies.back(), model);
   }
+  monitor.check();
   set_rows(scene, loading, model);
   const bool in_slices = slices && can_be_sliced(model.problem) && slices(model.problem);
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {

@@ -180,9 +180,9 @@ class History {
   void load(const Step& step, Monitor& monitor) {
     loading_.take(step, *scene_);
     if (!built_) model_ = build(*scene_, clock_, monitor, loading_, method_.decomposition(), [&](const problem::Problem& p) {
-        if (method_) return method_.takes_slices() && problem::row_basis(p).trivial();
-        const bool held = p.blocks[0].kernel.cols() == 0;  // else the choice needs K
-        return held && !condenser_ && solver::default_method(p) == solver::DefaultMethod::multigrid && problem::row_basis(p).trivial();
+        const bool held = p.blocks[0].kernel.cols() == 0;  // else the default method is chosen by K
+        const bool taken = method_ ? method_.takes_slices() : held && !condenser_ && solver::default_method(p) == solver::DefaultMethod::multigrid;
+        return taken && problem::row_basis(p).trivial();
       });
     if (built_ || (last_ && breaks_)) reload(*scene_, bodies_, loading_, model_, clock_);
     built_ = true;

@@ -39,7 +39,7 @@ CoarseStart coarse_start(const Problem& problem, const Pdas& settings, Monitor& 
   start.stiffness = std::make_shared<HeldStiffness>(problem, rigid, settings.linear_or_factor(), monitor, &stiffness);
   start.ordering = watch.lap();
   monitor.phase("solving on coarser meshes");
-  problem::Coarser coarse = problem::coarser(problem, stiffness);
+  problem::Coarser coarse = problem::coarser(problem, std::move(stiffness));
   const CoarseRows rows(coarse.problem, coarse.kept);
   if (rows.count() == 0) return start;
   const Problem part = rows.restricted();

@@ -59,7 +59,7 @@ class HeldStiffness {
                 algebra::SymmetricMatrix* coarser = nullptr);
 
   const problem::RowBasis& basis() const { return basis_; }
-  /// The lower triangle of TᵀKT at flagged unknowns and their neighbours, or more of it.
+  /// A lower triangle that has at least the entries of TᵀKT in rows and columns of flagged unknowns.
   algebra::SymmetricMatrix near(const std::vector<char>& of) const;
   /// `spring`: s, force per displacement, rows; `held`: one flag an unknown of the basis; `added`: to the matrix, lower triangle, of the unknowns of
   /// rows of one point. False where the matrix is not positive definite.
