@@ -37,13 +37,14 @@ class Elimination {
     RowBasis basis;
     for (int r = 0; r < problem_.rows(); ++r) basis.unknown.push_back(eliminate(r));
     const auto column = [&](int index) { return index < n_ ? index : basis.unknown[index - n_]; };
-    const bool identity = std::ranges::all_of(solved_, [&](const auto& of) {
+    const bool diagonal = std::ranges::all_of(solved_, [&](const auto& of) {
       const auto& [j, solved] = of;
-      return solved.terms.size() == 1 && column(solved.terms.begin()->first) == j && solved.terms.begin()->second == 1;
+      return solved.terms.size() == 1 && column(solved.terms.begin()->first) == j;
     });
-    if (identity) {  // as with one body on a rigid one: no list of all entries
+    if (diagonal) {  // as with one body on a rigid one: no list of all entries
       basis.T.resize(n_, n_);
       basis.T.setIdentity();
+      for (const auto& [j, solved] : solved_) basis.T.valuePtr()[j] = solved.terms.begin()->second;
       return basis;
     }
     algebra::Triplets entries;
@@ -151,7 +152,13 @@ class Elimination {
 RowBasis row_basis(const Problem& problem) { return Elimination(problem)(); }
 
 bool RowBasis::trivial() const {
-  return T.nonZeros() == T.cols() && std::all_of(T.valuePtr(), T.valuePtr() + T.nonZeros(), [](double value) { return value == 1; });
+  return of_signs() && std::all_of(T.valuePtr(), T.valuePtr() + T.nonZeros(), [](double value) { return value == 1; });
+}
+
+bool RowBasis::of_signs() const {
+  bool diagonal = T.nonZeros() == T.cols();
+  for (Eigen::Index j = 0; j < T.cols() && diagonal; ++j) diagonal = T.innerIndexPtr()[j] == j && std::abs(T.valuePtr()[j]) == 1;
+  return diagonal;
 }
 
 SparseMatrix RowBasis::of_displacements(const Problem& problem) const {

@@ -13,6 +13,7 @@ struct RowBasis {
   algebra::SparseMatrix T;   ///< unknowns × unknowns
   std::vector<int> unknown;  ///< of every row; -1 where others leave it none: rows that nearly depend on each other, or reach too far
   bool trivial() const;      ///< is T the identity?
+  bool of_signs() const;     ///< is T diagonal, each number 1 or −1? As on a rigid body whose normal is an axis, either way.
   /// S = T⁻¹: u' = S u.
   algebra::SparseMatrix of_displacements(const Problem& problem) const;
 };

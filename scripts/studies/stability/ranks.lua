@@ -46,13 +46,20 @@ local function graded(element, friction) -- stiffness that varies, springs, supp
   scene:contact{ b:part"top", friction = friction, interference = true, rigid = dotyk.rigid.ball{ center = {0.5, 0.5, 2.98}, radius = 2 } }
   return scene
 end
+local function floor(n) -- rows with the other sign, Coulomb friction
+  local b = dotyk.body{ material = dotyk.material{ E = 1000, nu = 0.3 }, mesh = dotyk.mesh.box{ from = {0, 0, 0}, to = {1, 1, 1}, cells = {n, n, n} } }
+  b:part"top":displace{ x = 0.004, y = 0, z = -0.01 }
+  local scene = dotyk.scene{ b }
+  scene:contact{ b:part"bottom", friction = dotyk.friction.coulomb(0.3), rigid = dotyk.rigid.plane{ point = {0, 0, 0}, normal = {0, 0, 1} }, interference = true }
+  return scene
+end
 for _, case in ipairs{
   { "cube", S.multigrid{}, scenes.cube(16) }, { "cube, coarse slices", S.multigrid{}, scenes.cube(28) }, { "cube, Coulomb", S.multigrid{}, scenes.cube(16, { friction = 0.3 }) },
   { "cube, aggregates", S.multigrid{ levels = "aggregates" }, scenes.cube(16, { friction = 0.3 }) },
   { "blocks, mortar", S.multigrid{}, scenes.blocks(24) }, { "blocks, mortar, Coulomb", S.multigrid{}, scenes.blocks(32, { friction = 0.3, contrast = 10 }) },
   { "blocks, aggregates", S.multigrid{ levels = "aggregates" }, scenes.blocks(24) }, { "blocks, glued", S.multigrid{}, scenes.blocks(24, { linear = true }) },
   { "plane, Coulomb", S.multigrid{}, strip(96) }, { "graded, Coulomb", S.multigrid{}, graded("P1", dotyk.friction.coulomb(0.2)) },
-  { "graded, order 2", S.multigrid{}, graded("P2") } } do
+  { "graded, order 2", S.multigrid{}, graded("P2") }, { "floor, Coulomb", S.multigrid{}, floor(24) } } do
   local s = case[2]:solve(case[3])
   assert(s.converged, s.reason)
   print(("%s|%.17g|%d|%d|%d"):format(case[1], s.energy, s.rows, s.iterations, s.multigrid.cg))
@@ -76,7 +83,7 @@ for _, ranks in ipairs{ 1, 2, 3, 4, 8 } do
     print(("%-26s %5d  %-20.15g %5d  %12s  %10d"):format(name, ranks, energy, rows, steps, cg))
   end
   pipe:close()
-  assert(count == 11, "a run has ended early")
+  assert(count == 12, "a run has ended early")
 end
 print(("energies differ by %.0e of their size at most"):format(worst))
 

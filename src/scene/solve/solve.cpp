@@ -182,7 +182,7 @@ class History {
     if (!built_) model_ = build(*scene_, clock_, monitor, loading_, method_.decomposition(), [&](const problem::Problem& p) {
         const bool held = p.blocks[0].kernel.cols() == 0;  // else the default method is chosen by K
         const bool taken = method_ ? method_.takes_slices() : held && !condenser_ && solver::default_method(p) == solver::DefaultMethod::multigrid;
-        return taken && problem::row_basis(p).trivial();
+        return taken && problem::row_basis(p).of_signs();
       });
     if (built_ || (last_ && breaks_)) reload(*scene_, bodies_, loading_, model_, clock_);
     built_ = true;

@@ -16,6 +16,7 @@ namespace dotyk::solver {
 using algebra::DenseMatrix;
 using algebra::SparseMatrix;
 using algebra::SparseRows;
+using algebra::StoredMatrix;
 using algebra::Vector;
 using problem::Problem;
 using problem::RigidMotions;
@@ -34,6 +35,13 @@ bool has_room(const SparseMatrix& matrix, const SparseMatrix& pattern) {
     for (SparseMatrix::InnerIterator it(pattern, j); it; ++it)
       if (place(matrix, static_cast<int>(it.row()), j) < 0) return false;
   return matrix.isCompressed();
+}
+
+/// TᵀKT of a lower triangle and a T of signs, or K of TᵀKT.
+StoredMatrix with_signs(StoredMatrix lower, const SparseMatrix& T) {
+  for (Eigen::Index j = 0; j < lower.cols(); ++j)
+    for (SparseMatrix::InnerIterator it(lower, j); it; ++it) it.valueRef() *= T.valuePtr()[it.row()] * T.valuePtr()[j];
+  return lower;
 }
 
 }  // namespace
@@ -66,11 +74,11 @@ void HeldStiffness::assemble(bool takes_slices) {
     if (a >= 0 && b >= 0) entries.emplace_back(std::max(a, b), std::min(a, b), 0.0);
   }
   const bool alone = problem_.blocks.size() == 1;
-  if (const auto* slices = problem_.blocks.front().K.slices(); slices && takes_slices && alone && basis_.trivial()) {
+  if (const auto* slices = problem_.blocks.front().K.slices(); slices && takes_slices && alone && basis_.of_signs()) {
     std::vector<char> of(static_cast<std::size_t>(problem_.unknowns()), 0);
     for (const auto& entry : entries) of[entry.row()] = of[entry.col()] = 1;
     for (const int unknown : fixing_) of[unknown] = 1;
-    lower_ = slices->near(of);
+    lower_ = with_signs(slices->near(of), basis_.T);
     if (has_room(lower(), algebra::from_triplets(problem_.unknowns(), problem_.unknowns(), entries))) return void(slices_ = slices);
   }
   for (const problem::Block& block : problem_.blocks)
@@ -78,13 +86,17 @@ void HeldStiffness::assemble(bool takes_slices) {
       if (!algebra::diagonal_entry(block.K.lower(), j)) entries.emplace_back(block.first + j, block.first + j, 0.0);
   const SparseMatrix zeros = algebra::from_triplets(problem_.unknowns(), problem_.unknowns(), entries);
   lower_ = problem_.blocks.front().K;
-  if (alone && basis_.trivial() && has_room(lower(), zeros)) return;
+  const bool room = alone && has_room(lower(), zeros);
+  if (room && basis_.trivial()) return;
   const SparseMatrix joined = alone ? SparseMatrix() : problem::lower_stiffness(problem_);
   const SparseMatrix& K = alone ? problem_.blocks.front().K.lower() : joined;
-  lower_ = basis_.trivial() ? algebra::lower_sum(K, zeros) : algebra::lower_sum(algebra::congruent(K, basis_.T), zeros);
+  StoredMatrix A;
+  A = basis_.of_signs() ? K : algebra::congruent(K, basis_.T);
+  if (!room) A = algebra::lower_sum(A, zeros);
+  lower_ = basis_.of_signs() && !basis_.trivial() ? with_signs(std::move(A), basis_.T) : std::move(A);
 }
 
-algebra::SymmetricMatrix HeldStiffness::near(const std::vector<char>& of) const { return slices_ ? slices_->near(of) : lower_; }
+algebra::SymmetricMatrix HeldStiffness::near(const std::vector<char>& of) const { return slices_ ? with_signs(slices_->near(of), basis_.T) : lower_; }
 
 /// Of an entry where nothing is held.
 void HeldStiffness::change(int row, int column, double by) {
@@ -209,6 +221,35 @@ SparseMatrix held_slightly(const Problem& problem) {
   return K;
 }
 
+/// Solves with TᵀKT, T of signs, by a solver for K.
+class SignedSolver final : public algebra::SpdSolver {
+ public:
+  SignedSolver(const SparseMatrix& T, std::unique_ptr<algebra::SpdSolver> of_K) : signs_(T.diagonal()), of_K_(std::move(of_K)) {}
+
+  /// Entries of K from such of TᵀKT.
+  static algebra::Triplets of_K(const algebra::Triplets& entries, const Vector& signs) {
+    algebra::Triplets all;
+    for (const auto& e : entries) all.emplace_back(e.row(), e.col(), signs[e.row()] * signs[e.col()] * e.value());
+    return all;
+  }
+
+  bool set(const algebra::Triplets& changed, const std::vector<char>& held) override { return of_K_->set(of_K(changed, signs_), held); }
+  Vector solve(const Vector& b, double tolerance, Vector* left) override {
+    const Vector x = of_K_->solve(signs_.cwiseProduct(b), tolerance, left);
+    if (left) left->array() *= signs_.array();
+    return signs_.cwiseProduct(x);
+  }
+  bool iterates() const override { return of_K_->iterates(); }
+  int iterations() const override { return of_K_->iterations(); }
+  int levels() const override { return of_K_->levels(); }
+  double bytes() const override { return of_K_->bytes(); }
+  std::string method() const override { return of_K_->method(); }
+
+ private:
+  const Vector signs_;
+  const std::unique_ptr<algebra::SpdSolver> of_K_;
+};
+
 }  // namespace
 
 MakeSpdSolver factor(algebra::Ordering ordering) {
@@ -223,18 +264,24 @@ MakeSpdSolver multigrid(Levels levels, double most_iterations) {
   const auto make = [levels, most_iterations](const SpdSystem& s) -> std::unique_ptr<algebra::SpdSolver> {
     const std::vector<int> nodes = problem::nodes(s.problem);
     const auto coarse = levels == Levels::meshes ? problem::coarse_functions(s.problem) : std::vector<SparseRows>();
-    multigrid::Matrix matrix{s.lower, nodes, [&] {
+    const bool of_signs = s.basis.of_signs(), other_signs = of_signs && !s.basis.trivial();
+    StoredMatrix K;
+    if (!of_signs) K = held_slightly(s.problem);
+    else if (other_signs && !s.slices) K = s.lower, K = with_signs(std::move(K), s.basis.T);
+    const algebra::Triplets changed = other_signs ? SignedSolver::of_K(s.changed, s.basis.T.diagonal()) : s.changed;
+    multigrid::Matrix matrix{other_signs && !s.slices ? K : s.lower, nodes, [&] {
                                DenseMatrix motions = all_rigid_motions(s.problem);
                                for (const SparseRows& functions : coarse) motions = problem::at_coarse(functions, motions);
                                return motions;
                              }};
-    matrix.changed = &s.changed, matrix.slices = s.slices;
+    matrix.changed = &changed, matrix.slices = s.slices;
     matrix.most_iterations = most_iterations;
     if (!coarse.empty()) matrix.coarse = &coarse, matrix.dimension = s.problem.blocks[0].coarse.dimension, matrix.coarser = s.coarser;
-    if (s.basis.trivial()) return multigrid::make_solver(matrix, s.monitor);
-    const SparseMatrix K = held_slightly(s.problem), unknowns = s.basis.of_displacements(s.problem);
-    matrix.displaced = &K, matrix.unknowns = &unknowns;
-    return multigrid::make_solver(matrix, s.monitor);
+    const SparseMatrix unknowns = of_signs ? SparseMatrix() : s.basis.of_displacements(s.problem);
+    if (!of_signs) matrix.displaced = &K, matrix.unknowns = &unknowns;
+    auto solver = multigrid::make_solver(matrix, s.monitor);
+    if (!other_signs) return solver;
+    return std::make_unique<SignedSolver>(s.basis.T, std::move(solver));
   };
   return {make, levels == Levels::meshes};  // ranks share out a matrix for aggregates by its pattern
 }

@@ -20,7 +20,7 @@ struct SpdSystem {
   const problem::RowBasis& basis;
   Monitor& monitor;  ///< outlives the solver
   algebra::SymmetricMatrix* coarser;  ///< receives PᵀKP of problem::coarser() where the solver makes it; null: nobody asks
-  const algebra::SlicedMatrix* slices = nullptr;  ///< of the whole; null: there are none
+  const algebra::SlicedMatrix* slices = nullptr;  ///< K; null: there are none
 };
 struct MakeSpdSolver {
   std::function<std::unique_ptr<algebra::SpdSolver>(const SpdSystem&)> make;
@@ -108,7 +108,7 @@ class HeldStiffness {
   const algebra::SparseMatrix unnoticed_;
   algebra::SparseRows rows_;        ///< B T
   algebra::SymmetricMatrix lower_;  ///< K itself where that has the room and T is the identity
-  const algebra::SlicedMatrix* slices_ = nullptr;  ///< of TᵀKT; null: lower() is the whole
+  const algebra::SlicedMatrix* slices_ = nullptr;  ///< K, and T is of signs; null: lower() is the whole
   std::vector<int> fixing_;         ///< unknowns that hold motions which no row notices
   std::vector<Entry> changed_;      ///< of the next matrix, in no order
   std::vector<Entry> told_;         ///< of the solver's
