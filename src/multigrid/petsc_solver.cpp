@@ -6,9 +6,9 @@
 
 #include "base/parallel.hpp"
 #include "base/text.hpp"
-#include "multigrid/changes.hpp"
-#include "multigrid/cycle.hpp"
+#include "multigrid/cycle/cycle.hpp"
 #include "multigrid/rank_slices.hpp"
+#include "multigrid/shares/changes.hpp"
 
 namespace dotyk::multigrid {
 

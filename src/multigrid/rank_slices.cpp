@@ -7,8 +7,8 @@
 #include <numeric>
 
 #include "base/parallel.hpp"
-#include "multigrid/own_rows.hpp"
-#include "multigrid/petsc_session.hpp"
+#include "multigrid/processes/petsc_session.hpp"
+#include "multigrid/rows/own_rows.hpp"
 
 namespace dotyk::multigrid {
 

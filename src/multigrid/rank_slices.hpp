@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "multigrid/numbering.hpp"
-#include "multigrid/slice.hpp"
+#include "multigrid/rows/slice.hpp"
+#include "multigrid/shares/numbering.hpp"
 #include "multigrid/workers.hpp"
 
 namespace dotyk::multigrid {

@@ -8,8 +8,8 @@
 #include <memory>
 
 #include "base/text.hpp"
-#include "multigrid/cycle.hpp"
-#include "multigrid/death_watch.hpp"
+#include "multigrid/cycle/cycle.hpp"
+#include "multigrid/processes/death_watch.hpp"
 #include "multigrid/rank_slices.hpp"
 
 namespace dotyk::multigrid {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "multigrid/ranks.hpp"
+#include "multigrid/processes/ranks.hpp"
 #include "multigrid/slices.hpp"
 
 namespace dotyk::multigrid {

@@ -43,26 +43,33 @@ SparseRows functions_of(const test::ElasticCube& cube, int n, bool used) {
   return algebra::from_triplets<SparseRows>(static_cast<int>(cube.node.size()), count, entries);
 }
 
+/// A cube on its bottom, with one coarser mesh.
+struct Nested {
+  static constexpr int n = 8;
+  const test::ElasticCube cube = test::cube_on_its_bottom(n);
+  const std::vector<SparseRows> coarse{functions_of(cube, n, false)};
+  Monitor monitor = {};
+
+  /// `coarser` receives the matrix of the coarser mesh.
+  std::unique_ptr<algebra::SpdSolver> solver(algebra::SymmetricMatrix* coarser, const algebra::Triplets* changed = nullptr) {
+    multigrid::Matrix matrix{cube.lower, cube.node, [&] { return algebra::DenseMatrix(coarse[0].cols(), 0); }};
+    matrix.coarse = &coarse, matrix.coarser = coarser, matrix.changed = changed;
+    return multigrid::make_solver(matrix, monitor);
+  }
+};
+
 }  // namespace
 
 TEST_CASE("the matrix of the next coarser mesh is told") {
   if (test::not_built()) return;
-  Monitor monitor;
-  constexpr int n = 8;
-  const test::ElasticCube cube = test::cube_on_its_bottom(n);
-  const std::vector<SparseRows> coarse{functions_of(cube, n, false)};
-  const algebra::SparseMatrix expected = algebra::congruent(cube.lower, functions_of(cube, n, true));
-  const algebra::DenseMatrix motions(coarse[0].cols(), 0);
-  multigrid::Matrix matrix{cube.lower, cube.node, [&] { return motions; }};
-  matrix.coarse = &coarse;
-  const auto silent = multigrid::make_solver(matrix, monitor);
-  algebra::SymmetricMatrix stiffness;
-  matrix.coarser = &stiffness;
+  Nested nested;
+  const test::ElasticCube& cube = nested.cube;
+  const algebra::SparseMatrix expected = algebra::congruent(cube.lower, functions_of(cube, Nested::n, true));
+  const auto silent = nested.solver(nullptr);
   const algebra::Triplets changed{{0, 0, 2 * cube.lower.coeff(0, 0)}};
   for (const algebra::Triplets* other : {static_cast<const algebra::Triplets*>(nullptr), &changed}) {  // of which it knows nothing
-    matrix.changed = other;
-    stiffness = {};
-    const auto telling = multigrid::make_solver(matrix, monitor);
+    algebra::SymmetricMatrix stiffness;
+    const auto telling = nested.solver(&stiffness, other);
     const algebra::SparseMatrix& coarser = stiffness.lower();
     REQUIRE(coarser.rows() == expected.rows());
     CHECK(algebra::SparseMatrix(coarser - expected).norm() <= 1e-14 * expected.norm());  // sums of 27 numbers
@@ -88,16 +95,9 @@ TEST_CASE("the matrix of the next coarser mesh is told") {
 
 TEST_CASE("what slices tell is what their lower triangle says") {
   if (test::not_built()) return;
-  Monitor monitor;
-  constexpr int n = 8;
-  const test::ElasticCube cube = test::cube_on_its_bottom(n);
-  const std::vector<SparseRows> coarse{functions_of(cube, n, false)};
-  const algebra::DenseMatrix motions(coarse[0].cols(), 0);
-  multigrid::Matrix matrix{cube.lower, cube.node, [&] { return motions; }};
-  matrix.coarse = &coarse;
+  Nested nested;
   algebra::SymmetricMatrix A;
-  matrix.coarser = &A;
-  const auto solver = multigrid::make_solver(matrix, monitor);
+  const auto solver = nested.solver(&A);
   REQUIRE(A.slices());
   const algebra::SparseMatrix& lower = A.lower();
   Vector x(A.rows());

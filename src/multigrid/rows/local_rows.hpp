@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
-#include "multigrid/petsc_session.hpp"
-#include "multigrid/ranks.hpp"
-#include "multigrid/rows.hpp"
+#include "multigrid/processes/petsc_session.hpp"
+#include "multigrid/processes/ranks.hpp"
+#include "multigrid/rows/rows.hpp"
 
 namespace dotyk::multigrid {
 

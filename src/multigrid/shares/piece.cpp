@@ -1,4 +1,4 @@
-#include "multigrid/piece.hpp"
+#include "multigrid/shares/piece.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "algebra/entries_of.hpp"
-#include "multigrid/own_rows.hpp"
+#include "multigrid/rows/own_rows.hpp"
 
 namespace dotyk::multigrid {
 

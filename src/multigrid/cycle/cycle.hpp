@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "base/monitor.hpp"
-#include "multigrid/hierarchy.hpp"
-#include "multigrid/shared_rows.hpp"
-#include "multigrid/sweeps.hpp"
+#include "multigrid/cycle/hierarchy.hpp"
+#include "multigrid/cycle/sweeps.hpp"
+#include "multigrid/rows/shared_rows.hpp"
 
 namespace dotyk::multigrid {
 

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "algebra/types.hpp"
-#include "multigrid/half_matrix.hpp"
+#include "multigrid/rows/half_matrix.hpp"
 
 namespace dotyk::multigrid {
 

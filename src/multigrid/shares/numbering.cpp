@@ -1,4 +1,4 @@
-#include "multigrid/numbering.hpp"
+#include "multigrid/shares/numbering.hpp"
 
 #include <metis.h>
 

@@ -5,8 +5,8 @@
 
 #include "base/buckets.hpp"
 #include "base/some_rows.hpp"
-#include "multigrid/half_matrix.hpp"
-#include "multigrid/local_rows.hpp"
+#include "multigrid/rows/half_matrix.hpp"
+#include "multigrid/rows/local_rows.hpp"
 
 namespace dotyk::multigrid {
 

@@ -4,7 +4,7 @@
 #include <set>
 #include <vector>
 
-#include "multigrid/piece.hpp"
+#include "multigrid/shares/piece.hpp"
 
 namespace dotyk::multigrid {
 

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "multigrid/galerkin.hpp"
-#include "multigrid/piece.hpp"
+#include "multigrid/cycle/galerkin.hpp"
+#include "multigrid/shares/piece.hpp"
 
 namespace dotyk::multigrid {
 

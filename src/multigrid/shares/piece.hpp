@@ -3,10 +3,10 @@
 
 #include <vector>
 
-#include "multigrid/half_matrix.hpp"
-#include "multigrid/numbering.hpp"
-#include "multigrid/ranks.hpp"
-#include "multigrid/rows.hpp"
+#include "multigrid/processes/ranks.hpp"
+#include "multigrid/rows/half_matrix.hpp"
+#include "multigrid/rows/rows.hpp"
+#include "multigrid/shares/numbering.hpp"
 
 namespace dotyk::multigrid {
 

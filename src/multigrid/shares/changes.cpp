@@ -1,4 +1,4 @@
-#include "multigrid/changes.hpp"
+#include "multigrid/shares/changes.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "multigrid/cycle.hpp"
+#include "multigrid/cycle/cycle.hpp"
 
 #include <algorithm>
 #include <cmath>

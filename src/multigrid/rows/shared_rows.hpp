@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "multigrid/half_matrix.hpp"
-#include "multigrid/local_rows.hpp"
+#include "multigrid/rows/half_matrix.hpp"
+#include "multigrid/rows/local_rows.hpp"
 
 namespace dotyk::multigrid {
 

@@ -1,4 +1,4 @@
-#include "multigrid/ranks.hpp"
+#include "multigrid/processes/ranks.hpp"
 
 #include <unistd.h>
 

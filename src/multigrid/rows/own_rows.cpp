@@ -1,4 +1,4 @@
-#include "multigrid/own_rows.hpp"
+#include "multigrid/rows/own_rows.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "multigrid/petsc_session.hpp"
+#include "multigrid/processes/petsc_session.hpp"
 
 #include <csignal>
 #include <cstdlib>

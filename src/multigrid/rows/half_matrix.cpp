@@ -1,4 +1,4 @@
-#include "multigrid/half_matrix.hpp"
+#include "multigrid/rows/half_matrix.hpp"
 
 #include <numeric>
 #include <utility>

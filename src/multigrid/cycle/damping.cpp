@@ -1,4 +1,4 @@
-#include "multigrid/sweeps.hpp"
+#include "multigrid/cycle/sweeps.hpp"
 
 #include <Eigen/Dense>
 #include <algorithm>

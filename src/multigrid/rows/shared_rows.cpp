@@ -1,4 +1,4 @@
-#include "multigrid/shared_rows.hpp"
+#include "multigrid/rows/shared_rows.hpp"
 
 namespace dotyk::multigrid {
 

@@ -1,4 +1,4 @@
-#include "multigrid/galerkin.hpp"
+#include "multigrid/cycle/galerkin.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "multigrid/kernels.hpp"
+#include "multigrid/rows/kernels.hpp"
 
 #include <algorithm>
 #include <cmath>

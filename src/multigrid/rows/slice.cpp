@@ -1,10 +1,10 @@
-#include "multigrid/slice.hpp"
+#include "multigrid/rows/slice.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "multigrid/own_rows.hpp"
+#include "multigrid/rows/own_rows.hpp"
 
 namespace dotyk::multigrid {
 

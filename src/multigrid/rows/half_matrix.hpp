@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "base/buckets.hpp"
-#include "multigrid/kernels.hpp"
-#include "multigrid/ranks.hpp"
-#include "multigrid/rows.hpp"
+#include "multigrid/processes/ranks.hpp"
+#include "multigrid/rows/kernels.hpp"
+#include "multigrid/rows/rows.hpp"
 
 namespace dotyk::multigrid {
 

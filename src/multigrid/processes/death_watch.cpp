@@ -1,4 +1,4 @@
-#include "multigrid/death_watch.hpp"
+#include "multigrid/processes/death_watch.hpp"
 
 #include <poll.h>
 #include <sys/syscall.h>

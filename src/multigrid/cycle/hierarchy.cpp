@@ -1,4 +1,4 @@
-#include "multigrid/hierarchy.hpp"
+#include "multigrid/cycle/hierarchy.hpp"
 
 #include <algorithm>
 #include <stdexcept>

@@ -1,4 +1,4 @@
-#include "multigrid/local_rows.hpp"
+#include "multigrid/rows/local_rows.hpp"
 
 namespace dotyk::multigrid {
 
