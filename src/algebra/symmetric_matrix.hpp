@@ -17,9 +17,9 @@ using LongVector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
 class SlicedMatrix {
  public:
   virtual ~SlicedMatrix() = default;
-  virtual Vector times(const Vector& x) const = 0;
-  virtual LongVector times(const LongVector& x) const = 0;  ///< in extended precision
-  virtual Vector gross_times(const Vector& x) const = 0;    ///< |A| |x|
+  virtual Vector times(const Eigen::Ref<const Vector>& x) const = 0;
+  virtual LongVector times(const Eigen::Ref<const LongVector>& x) const = 0;  ///< in extended precision
+  virtual Vector gross_times(const Vector& x) const = 0;                      ///< |A| |x|
   /// The lower triangle, with the entries in rows and columns of flagged unknowns alone.
   virtual StoredMatrix near(const std::vector<char>& of) const = 0;
 
@@ -58,7 +58,7 @@ class SymmetricMatrix {
   /// The product with a vector, in its number type.
   template <class Numbers>
   typename Numbers::PlainObject times(const Numbers& x) const {
-    return slices() ? slices()->times(typename Numbers::PlainObject(x)) : symmetric_product(lower(), x);
+    return slices() ? slices()->times(x) : symmetric_product(lower(), x);
   }
   /// |A| |x|.
   Vector gross_times(const Vector& x) const {

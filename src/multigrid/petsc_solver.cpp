@@ -64,12 +64,13 @@ class PetscSolver final : public algebra::SpdSolver {
     if (b.size() != unknowns) throw std::runtime_error(text("a right-hand side of ", b.size(), " numbers for ", unknowns, " unknowns"));
     const std::lock_guard lock(only_one());
     const Ranks& ranks = workers_.ranks();
-    const Cycle::Solution solution = ranks.together([&] { return solve_together(b, tolerance); });
-    iterations_ += solution.iterations;
-    if (solution.thrown) std::rethrow_exception(solution.thrown);
-    if (!solution.found) return algebra::Vector::Constant(unknowns, std::numeric_limits<double>::quiet_NaN());
-    if (left) *left = numbering_->of_unknowns(solution.left);
-    return numbering_->of_unknowns(solution.x);
+    algebra::Vector x(unknowns);
+    if (left) left->resize(unknowns);
+    const Cycle::Solution own = ranks.together([&] { return solve_together(b, tolerance, x, left); });
+    iterations_ += own.iterations;
+    if (own.thrown) std::rethrow_exception(own.thrown);
+    if (!own.found) x.setConstant(std::numeric_limits<double>::quiet_NaN());
+    return x;
   }
 
   double bytes() const override {
@@ -104,25 +105,21 @@ class PetscSolver final : public algebra::SpdSolver {
     if (slices_) own.matrix = slices_->own();
     return own;
   }
-  /// Of all ranks, by the numbers of Numbering.
-  Cycle::Solution solve_together(const algebra::Vector& b, double tolerance) {
+  /// Puts the solution of all ranks into x, and what is left, where it is asked for; returns that of rank 0.
+  Cycle::Solution solve_together(const algebra::Vector& b, double tolerance, algebra::Vector& x, algebra::Vector* left) {
     const Ranks& ranks = workers_.ranks();
-    const std::vector<int>& first = numbering_->first(0);
-    std::vector<double> all = numbering_->by_rows([&](auto i) { return b[i]; });
+    const auto given = [&](int i) { return b[i]; };
     workers_.tell(Task::solve);
-    for (int r = 1; r < ranks.count(); ++r) {
-      ranks.send(r, std::vector<double>{tolerance, most_});
-      ranks.send(r, std::vector<double>(all.begin() + first[r], all.begin() + first[r + 1]));
-    }
-    all.resize(static_cast<std::size_t>(first[1]));
-    Cycle::Solution solution = cycle_->solve(all, tolerance, most_, &monitor_);
+    for (int r = 1; r < ranks.count(); ++r) ranks.send(r, std::vector<double>{tolerance, most_}), ranks.send(r, numbering_->part(r, given));
+    Cycle::Solution own = cycle_->solve(numbering_->part(0, given), tolerance, most_, &monitor_);
     std::vector<double> part;
-    for (int r = 1; r < ranks.count(); ++r)
-      for (std::vector<double>* all : {&solution.x, &solution.left}) {
-        ranks.receive(r, part);
-        all->insert(all->end(), part.begin(), part.end());
-      }
-    return solution;
+    for (int r = 0; r < ranks.count(); ++r) {
+      if (r > 0) ranks.receive(r, part);
+      numbering_->put(r, r > 0 ? part : own.x, x);
+      if (r > 0) ranks.receive(r, part);
+      if (left) numbering_->put(r, r > 0 ? part : own.left, *left);
+    }
+    return own;
   }
 
   std::unique_lock<std::mutex> alone_{only_one()};  // while the members after it are made, and while they are destroyed

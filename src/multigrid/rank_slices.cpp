@@ -114,10 +114,7 @@ RankSlices::RankSlices(Workers workers, Numbering numbering, HalfRows own) : Ran
   made_ = true;
 }
 
-RankSlices::RankSlices(Workers workers, Numbering numbering) : workers_(workers), numbering_(std::make_shared<const Numbering>(std::move(numbering))) {
-  unknown_.assign(static_cast<std::size_t>(numbering_->first(0).back()), -1);
-  for (std::size_t i = 0; i < numbering_->slot().size(); ++i) unknown_[numbering_->slot()[i]] = static_cast<int>(i);
-}
+RankSlices::RankSlices(Workers workers, Numbering numbering) : workers_(workers), numbering_(std::make_shared<const Numbering>(std::move(numbering))) {}
 
 RankSlices::~RankSlices() {
   if (!made_) return;  // an exception while it was made: the lock is held, and nobody was told
@@ -161,48 +158,53 @@ std::unique_ptr<Slice> RankSlices::share_out(const Shared& matrix) const {
 
 void RankSlices::take_diagonal() {
   const Ranks& ranks = workers_.ranks();
-  std::vector<double> all = slice_->diagonal(), part;
-  std::vector<int> most;
-  most_entries_ = slice_->most_entries();
-  for (int r = 1; r < ranks.count(); ++r) {
-    ranks.receive(r, part), ranks.receive(r, most);
-    all.insert(all.end(), part.begin(), part.end());
+  std::vector<double> part = slice_->diagonal();
+  std::vector<int> most{slice_->most_entries()};
+  diagonal_.resize(static_cast<Eigen::Index>(numbering_->slot().size()));
+  for (int r = 0; r < ranks.count(); ++r) {
+    if (r > 0) ranks.receive(r, part), ranks.receive(r, most);
+    numbering_->put(r, part, diagonal_);
     most_entries_ = std::max(most_entries_, most[0]);
   }
-  diagonal_ = numbering_->of_unknowns(all);
 }
 
-RankSlices::Parts RankSlices::product(Slice::Product how, Parts x) const {
+/// Of a vector, or of several whose sum is the factor: of_unknown(i) are their numbers.
+template <class... Number>
+std::array<Vector, sizeof...(Number)> RankSlices::product(Slice::Product how, const Number&... of_unknown) const {
   const std::lock_guard lock(only_one());
   const Ranks& ranks = workers_.ranks();
-  const std::vector<int>& first = numbering_->first(0);
   return ranks.together([&] {
     workers_.tell(Task::multiply);
     for (int r = 1; r < ranks.count(); ++r) {
-      ranks.send(r, std::vector<int>{static_cast<int>(how), static_cast<int>(x.size())});
-      for (const auto& part : x) ranks.send(r, std::vector<double>(part.begin() + first[r], part.begin() + first[r + 1]));
+      ranks.send(r, std::vector<int>{static_cast<int>(how), static_cast<int>(sizeof...(Number))});
+      (ranks.send(r, numbering_->part(r, of_unknown)), ...);
     }
-    for (auto& part : x) part.resize(static_cast<std::size_t>(first[1]));
-    Parts y = slice_->times(how, x);
-    std::vector<double> theirs;
-    for (int r = 1; r < ranks.count(); ++r)
-      for (auto& part : y) ranks.receive(r, theirs), part.insert(part.end(), theirs.begin(), theirs.end());
+    std::vector<std::vector<double>> parts;
+    (parts.push_back(numbering_->part(0, of_unknown)), ...);
+    parts = slice_->times(how, parts);
+    std::array<Vector, sizeof...(Number)> y;
+    for (Vector& all : y) all.resize(diagonal_.size());
+    for (int r = 0; r < ranks.count(); ++r)
+      for (std::size_t k = 0; k < y.size(); ++k) {
+        if (r > 0) ranks.receive(r, parts[k]);
+        numbering_->put(r, parts[k], y[k]);
+      }
     return y;
   });
 }
 
-Vector RankSlices::times(const Vector& x) const {
-  return numbering_->of_unknowns(product(Slice::Product::plain, {numbering_->by_rows([&](auto i) { return x[i]; })})[0]);
+Vector RankSlices::times(const Eigen::Ref<const Vector>& x) const {
+  return std::move(product(Slice::Product::plain, [&](int i) { return x[i]; })[0]);
 }
 
 Vector RankSlices::gross_times(const Vector& x) const {
-  return numbering_->of_unknowns(product(Slice::Product::gross, {numbering_->by_rows([&](auto i) { return std::abs(x[i]); })})[0]);
+  return std::move(product(Slice::Product::gross, [&](int i) { return std::abs(x[i]); })[0]);
 }
 
-LongVector RankSlices::times(const LongVector& x) const {
-  const auto high = [&](auto i) { return static_cast<double>(x[i]); };
-  const Parts y = product(Slice::Product::precise, {numbering_->by_rows(high), numbering_->by_rows([&](auto i) { return static_cast<double>(x[i] - high(i)); })});
-  return numbering_->of_unknowns(y[0]).cast<long double>() + numbering_->of_unknowns(y[1]).cast<long double>();
+LongVector RankSlices::times(const Eigen::Ref<const LongVector>& x) const {
+  const auto high = [&](int i) { return static_cast<double>(x[i]); };
+  const auto y = product(Slice::Product::precise, high, [&](int i) { return static_cast<double>(x[i] - high(i)); });
+  return y[0].cast<long double>() + y[1].cast<long double>();
 }
 
 namespace {
@@ -241,7 +243,7 @@ algebra::StoredMatrix RankSlices::near(const std::vector<char>& of) const {
   std::vector<std::vector<int>> asked(static_cast<std::size_t>(ranks.count()));
   for (int r = 0; r < ranks.count(); ++r)
     for (int row = first[r]; row < first[r + 1]; ++row)
-      if (unknown_[row] >= 0 && of[unknown_[row]]) asked[r].push_back(row - first[r]);
+      if (const int i = numbering_->unknown(row); i >= 0 && of[i]) asked[r].push_back(row - first[r]);
   const std::vector<Rows> rows = ranks.together([&] {
     workers_.tell(Task::some);
     for (int r = 1; r < ranks.count(); ++r) ranks.send(r, asked[r]);
@@ -252,9 +254,9 @@ algebra::StoredMatrix RankSlices::near(const std::vector<char>& of) const {
   return lower_triangle(static_cast<int>(diagonal_.size()), [&](int begin, int end, auto&& visit) {
     for (std::size_t r = 0; r < rows.size(); ++r)
       for (std::size_t k = 0; k < asked[r].size(); ++k) {
-        const int i = unknown_[first[r] + asked[r][k]];
+        const int i = numbering_->unknown(first[r] + asked[r][k]);
         for (int at = rows[r].starts[k]; at < rows[r].starts[k + 1]; ++at) {
-          const int j = unknown_[rows[r].columns[at]];
+          const int j = numbering_->unknown(rows[r].columns[at]);
           if (j < 0 || (j > i && of[j])) continue;  // the latter is told with its own row
           if (const int column = std::min(i, j); column >= begin && column < end) visit(std::max(i, j), column, rows[r].values[at]);
         }

@@ -1,6 +1,7 @@
 // A matrix in slices, as rank 0 has it.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -18,8 +19,8 @@ class RankSlices final : public algebra::SlicedMatrix {
   RankSlices(Workers workers, Numbering numbering, HalfRows own);
   ~RankSlices() override;
 
-  algebra::Vector times(const algebra::Vector& x) const override;
-  algebra::LongVector times(const algebra::LongVector& x) const override;
+  algebra::Vector times(const Eigen::Ref<const algebra::Vector>& x) const override;
+  algebra::LongVector times(const Eigen::Ref<const algebra::LongVector>& x) const override;
   algebra::Vector gross_times(const algebra::Vector& x) const override;
   algebra::StoredMatrix near(const std::vector<char>& of) const override;
 
@@ -29,15 +30,14 @@ class RankSlices final : public algebra::SlicedMatrix {
 
  private:
   RankSlices(Workers workers, Numbering numbering);
-  using Parts = std::vector<std::vector<double>>;
   std::unique_ptr<Slice> share_out(const Shared& matrix) const;
   std::vector<int> idle_of(int rank) const;
   void take_diagonal();
-  Parts product(Slice::Product how, Parts x) const;
+  template <class... Number>
+  std::array<algebra::Vector, sizeof...(Number)> product(Slice::Product how, const Number&... of_unknown) const;
 
   Workers workers_;
   std::shared_ptr<const Numbering> numbering_;
-  std::vector<int> unknown_;  ///< of each row; -1: none
   std::unique_ptr<Slice> slice_;
   bool made_ = false;  ///< to its end: the other ranks have their slices
 };

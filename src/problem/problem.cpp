@@ -154,6 +154,7 @@ namespace {
 
 template <class Numbers>
 Numbers times(const Problem& problem, const Numbers& u) {
+  if (problem.blocks.size() == 1) return problem.blocks[0].K.times(u);
   Numbers result(problem.unknowns());
   for (const Block& block : problem.blocks)
     result.segment(block.first, block.size()) = block.K.times(Eigen::Map<const Numbers>(u.data() + block.first, block.size()));

@@ -87,6 +87,7 @@ std::vector<std::vector<double>> Slice::times(Product how, const std::vector<std
     case Product::gross: y[0] = product(matrix_, x[0], matrix_.theirs(x[0].data()), [](double a) { return std::abs(a); }); break;
     case Product::precise: {
       const std::vector<double> high = matrix_.theirs(x[0].data());
+      y[0].reserve(x[0].size()), y[1].reserve(x[0].size());
       for (const long double number : product(matrix_, sum(x[0], x[1]), sum(high, matrix_.theirs(x[1].data())), [](double a) { return a; })) {
         y[0].push_back(static_cast<double>(number));
         y[1].push_back(static_cast<double>(number - y[0].back()));

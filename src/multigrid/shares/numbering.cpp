@@ -167,6 +167,7 @@ Numbering::Numbering(const Matrix& matrix, int ranks) {
     for (int k = used; k < block_; ++k) idle_.push_back(begin + k);
   }
   for (int& f : first_[0]) f *= block_;
+  take_unknowns();
   for (std::size_t l = 1; matrix.coarse && l <= matrix.coarse->size(); ++l) {
     const std::vector<int> number = numbers_by_rank(sharing.of(static_cast<int>(l)), ranks, first_.emplace_back());
     std::vector<int>& rows = functions_.emplace_back();
@@ -181,16 +182,21 @@ Numbering::Numbering(const Numbering& finer, const algebra::SparseRows& function
   std::vector<char> used(static_cast<std::size_t>(functions.cols()), 0);
   for (Eigen::Index k = 0; k < functions.nonZeros(); ++k) used[functions.innerIndexPtr()[k]] = 1;
   for (std::size_t k = 0; k < used.size(); ++k) (used[k] ? slot_ : idle_).push_back(finer.functions_[0][k]);
+  take_unknowns();
 }
 
 bool Numbering::shares_by_functions(const std::vector<algebra::SparseRows>& coarse, int dimension, int ranks) {
   return !coarse.empty() && coarse.front().cols() / dimension >= kEnough * ranks;
 }
 
-algebra::Vector Numbering::of_unknowns(const std::vector<double>& by_rows) const {
-  algebra::Vector x(static_cast<Eigen::Index>(slot_.size()));
-  for (std::size_t i = 0; i < slot_.size(); ++i) x[static_cast<Eigen::Index>(i)] = by_rows[slot_[i]];
-  return x;
+void Numbering::take_unknowns() {
+  unknown_.assign(static_cast<std::size_t>(first_[0].back()), -1);
+  for (std::size_t i = 0; i < slot_.size(); ++i) unknown_[slot_[i]] = static_cast<int>(i);
+}
+
+void Numbering::put(int rank, const std::vector<double>& part, algebra::Vector& x) const {
+  for (std::size_t k = 0; k < part.size(); ++k)
+    if (const int i = unknown_[first_[0][rank] + k]; i >= 0) x[i] = part[k];
 }
 
 int Numbering::rank_of(int row) const {

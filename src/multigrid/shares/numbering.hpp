@@ -28,18 +28,24 @@ class Numbering {
   const std::vector<int>& first(int level) const { return first_[level]; }
   int rank_of(int row) const;  ///< of the finest level
 
-  /// A vector by rows of the finest level, zero at idle ones; of_unknown(i): its numbers.
+  int unknown(int row) const { return unknown_[row]; }  ///< of a row of the finest level; −1: it is idle
+
+  /// What a rank has of a vector, by its rows of the finest level: of_unknown(i), and zero at idle ones.
   template <class Number>
-  std::vector<double> by_rows(const Number& of_unknown) const {
-    std::vector<double> all(static_cast<std::size_t>(first_[0].back()), 0.0);
-    for (std::size_t i = 0; i < slot_.size(); ++i) all[slot_[i]] = of_unknown(static_cast<Eigen::Index>(i));
-    return all;
+  std::vector<double> part(int rank, const Number& of_unknown) const {
+    std::vector<double> part(static_cast<std::size_t>(first_[0][rank + 1] - first_[0][rank]), 0.0);
+    for (std::size_t k = 0; k < part.size(); ++k)
+      if (const int i = unknown_[first_[0][rank] + k]; i >= 0) part[k] = of_unknown(i);
+    return part;
   }
-  algebra::Vector of_unknowns(const std::vector<double>& by_rows) const;  ///< the way back
+  /// The way back, into a vector of all unknowns.
+  void put(int rank, const std::vector<double>& part, algebra::Vector& x) const;
 
  private:
+  void take_unknowns();
+
   int block_ = 1;
-  std::vector<int> slot_, idle_;
+  std::vector<int> slot_, idle_, unknown_;
   std::vector<std::vector<int>> functions_, first_;
 };
 

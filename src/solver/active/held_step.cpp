@@ -244,7 +244,8 @@ class HeldStep final : public Step {
   /// f − Ku by a product, which is remembered as elastic_.
   LongVector elastic_anew(Known how) {
     LongVector all = f_.cast<long double>();
-    all -= how == Known::precisely ? problem::precise_stiffness_times(problem_, u_) : LongVector(problem::rough_stiffness_times(problem_, u_.cast<double>()).cast<long double>());
+    if (how == Known::precisely) all -= problem::precise_stiffness_times(problem_, u_);
+    else all -= problem::rough_stiffness_times(problem_, u_.cast<double>()).cast<long double>();
     elastic_ = in_basis(all), elastic_known_ = how;
     return all;
   }
