@@ -121,14 +121,18 @@ struct Motions {
 
   /// UᵀMV, some rows at a time, so that no other matrix of this size is needed.
   DenseMatrix inner(const Displacements& U, const Displacements& V) const {
-    constexpr Eigen::Index kRows = 1000;
-    DenseMatrix sum = DenseMatrix::Zero(U.cols(), V.cols());
-    for (Eigen::Index first = 0; first < U.rows(); first += kRows) {
-      const Eigen::Index count = std::min(kRows, U.rows() - first);
-      const ByRows weighted = w.segment(first, count).asDiagonal() * V.middleRows(first, count);
-      sum += U.middleRows(first, count).transpose() * weighted;
-    }
-    return sum;
+    constexpr int kRows = 1000, kFew = 100'000;  // rows for a thread
+    const int rows = static_cast<int>(U.rows()), threads = threads_for(rows, kFew);
+    std::vector<DenseMatrix> sums(static_cast<std::size_t>(threads), DenseMatrix::Zero(U.cols(), V.cols()));
+    parallel_ranges(rows, threads, [&](int thread, int begin, int end) {
+      for (int first = begin; first < end; first += kRows) {
+        const int count = std::min(kRows, end - first);
+        const ByRows weighted = w.segment(first, count).asDiagonal() * V.middleRows(first, count);
+        sums[thread] += U.middleRows(first, count).transpose() * weighted;
+      }
+    });
+    for (int k = 1; k < threads; ++k) sums[0] += sums[k];
+    return sums[0];
   }
   /// The coefficients of the M-orthogonal projection of u onto the kernel.
   DenseMatrix in_kernel(const Displacements& kernel, const Displacements& u) const {

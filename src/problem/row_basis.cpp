@@ -44,7 +44,11 @@ class Elimination {
     if (diagonal) {  // as with one body on a rigid one: no list of all entries
       basis.T.resize(n_, n_);
       basis.T.setIdentity();
-      for (const auto& [j, solved] : solved_) basis.T.valuePtr()[j] = solved.terms.begin()->second;
+      basis.kind = RowBasis::Kind::identity;
+      for (const auto& [j, solved] : solved_) {
+        const double factor = basis.T.valuePtr()[j] = solved.terms.begin()->second;
+        if (factor != 1) basis.kind = std::max(basis.kind, factor == -1 ? RowBasis::Kind::signs : RowBasis::Kind::general);
+      }
       return basis;
     }
     algebra::Triplets entries;
@@ -150,16 +154,6 @@ class Elimination {
 }  // namespace
 
 RowBasis row_basis(const Problem& problem) { return Elimination(problem)(); }
-
-bool RowBasis::trivial() const {
-  return of_signs() && std::all_of(T.valuePtr(), T.valuePtr() + T.nonZeros(), [](double value) { return value == 1; });
-}
-
-bool RowBasis::of_signs() const {
-  bool diagonal = T.nonZeros() == T.cols();
-  for (Eigen::Index j = 0; j < T.cols() && diagonal; ++j) diagonal = T.innerIndexPtr()[j] == j && std::abs(T.valuePtr()[j]) == 1;
-  return diagonal;
-}
 
 SparseMatrix RowBasis::of_displacements(const Problem& problem) const {
   std::vector<char> own(T.cols(), 0);

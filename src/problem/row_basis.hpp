@@ -1,5 +1,6 @@
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "problem/problem.hpp"
@@ -12,8 +13,13 @@ namespace dotyk::problem {
 struct RowBasis {
   algebra::SparseMatrix T;   ///< unknowns × unknowns
   std::vector<int> unknown;  ///< of every row; -1 where others leave it none: rows that nearly depend on each other, or reach too far
-  bool trivial() const;      ///< is T the identity?
-  bool of_signs() const;     ///< is T diagonal, each number 1 or −1? As on a rigid body whose normal is an axis, either way.
+  /// What T is: the identity; diagonal, each number 1 or −1, as on a rigid body whose normal is an axis, either way; or neither.
+  enum class Kind { identity, signs, general } kind = Kind::general;
+  bool trivial() const { return kind == Kind::identity; }
+  bool of_signs() const { return kind != Kind::general; }
+  /// T u' and Tᵀ f.
+  algebra::Vector displacements(algebra::Vector u) const { return trivial() ? std::move(u) : T * u; }
+  algebra::Vector forces(algebra::Vector f) const { return trivial() ? std::move(f) : T.transpose() * f; }
   /// S = T⁻¹: u' = S u.
   algebra::SparseMatrix of_displacements(const Problem& problem) const;
 };

@@ -30,17 +30,15 @@ std::ptrdiff_t place(const SparseMatrix& matrix, int row, int column) {
   return at == end || *at != row ? -1 : at - matrix.innerIndexPtr();
 }
 
-bool has_room(const SparseMatrix& matrix, const SparseMatrix& pattern) {
-  for (int j = 0; j < pattern.cols(); ++j)
-    for (SparseMatrix::InnerIterator it(pattern, j); it; ++it)
-      if (place(matrix, static_cast<int>(it.row()), j) < 0) return false;
-  return matrix.isCompressed();
+bool has_room(const SparseMatrix& matrix, const algebra::Triplets& entries) {
+  return matrix.isCompressed() && std::ranges::all_of(entries, [&](const auto& e) { return place(matrix, e.row(), e.col()) >= 0; });
 }
 
 /// TᵀKT of a lower triangle and a T of signs, or K of TᵀKT.
-StoredMatrix with_signs(StoredMatrix lower, const SparseMatrix& T) {
-  for (Eigen::Index j = 0; j < lower.cols(); ++j)
-    for (SparseMatrix::InnerIterator it(lower, j); it; ++it) it.valueRef() *= T.valuePtr()[it.row()] * T.valuePtr()[j];
+StoredMatrix with_signs(StoredMatrix lower, const problem::RowBasis& basis) {
+  const double* sign = basis.T.valuePtr();
+  for (Eigen::Index j = 0; j < lower.cols() && !basis.trivial(); ++j)
+    for (SparseMatrix::InnerIterator it(lower, j); it; ++it) it.valueRef() *= sign[it.row()] * sign[j];
   return lower;
 }
 
@@ -65,7 +63,7 @@ HeldStiffness::HeldStiffness(const Problem& problem, const RigidMotions& rigid, 
 }
 
 void HeldStiffness::assemble(bool takes_slices) {
-  std::vector<Eigen::Triplet<double>> entries;  // of rows, and of the diagonal where K has no entry there: zeros in the pattern
+  algebra::Triplets entries;  // of rows, and of the diagonal where K has no entry there: zeros in the pattern
   for (int r = 0; r < problem_.rows(); ++r)
     for (SparseRows::InnerIterator i(rows_, r); i; ++i)
       for (SparseRows::InnerIterator j(rows_, r); j && j.col() <= i.col(); ++j) entries.emplace_back(static_cast<int>(i.col()), static_cast<int>(j.col()), 0.0);
@@ -78,25 +76,24 @@ void HeldStiffness::assemble(bool takes_slices) {
     std::vector<char> of(static_cast<std::size_t>(problem_.unknowns()), 0);
     for (const auto& entry : entries) of[entry.row()] = of[entry.col()] = 1;
     for (const int unknown : fixing_) of[unknown] = 1;
-    lower_ = with_signs(slices->near(of), basis_.T);
-    if (has_room(lower(), algebra::from_triplets(problem_.unknowns(), problem_.unknowns(), entries))) return void(slices_ = slices);
+    lower_ = with_signs(slices->near(of), basis_);
+    if (has_room(lower(), entries)) return void(slices_ = slices);
   }
   for (const problem::Block& block : problem_.blocks)
     for (int j = 0; j < block.size(); ++j)
       if (!algebra::diagonal_entry(block.K.lower(), j)) entries.emplace_back(block.first + j, block.first + j, 0.0);
-  const SparseMatrix zeros = algebra::from_triplets(problem_.unknowns(), problem_.unknowns(), entries);
   lower_ = problem_.blocks.front().K;
-  const bool room = alone && has_room(lower(), zeros);
+  const bool room = alone && has_room(lower(), entries);
   if (room && basis_.trivial()) return;
   const SparseMatrix joined = alone ? SparseMatrix() : problem::lower_stiffness(problem_);
   const SparseMatrix& K = alone ? problem_.blocks.front().K.lower() : joined;
   StoredMatrix A;
   A = basis_.of_signs() ? K : algebra::congruent(K, basis_.T);
-  if (!room) A = algebra::lower_sum(A, zeros);
-  lower_ = basis_.of_signs() && !basis_.trivial() ? with_signs(std::move(A), basis_.T) : std::move(A);
+  if (!room) A = algebra::lower_sum(A, algebra::from_triplets(problem_.unknowns(), problem_.unknowns(), entries));
+  lower_ = basis_.of_signs() ? with_signs(std::move(A), basis_) : std::move(A);
 }
 
-algebra::SymmetricMatrix HeldStiffness::near(const std::vector<char>& of) const { return slices_ ? with_signs(slices_->near(of), basis_.T) : lower_; }
+algebra::SymmetricMatrix HeldStiffness::near(const std::vector<char>& of) const { return slices_ ? with_signs(slices_->near(of), basis_) : lower_; }
 
 /// Of an entry where nothing is held.
 void HeldStiffness::change(int row, int column, double by) {
@@ -191,12 +188,12 @@ HeldStiffness::Displaced HeldStiffness::solve_in_basis(Vector forces, double tol
   for (Eigen::Index i = 0; i < forces.size(); ++i)
     if (held_[i]) forces[i] = 0;
   Vector left;
-  const Vector solution = solver_->solve(forces, tolerance, &left);
+  Vector solution = solver_->solve(forces, tolerance, &left);
   if (solver_->iterates() && forces.allFinite() && !solution.allFinite())
     throw SlowIterations(text(solver_->method(), ": no solution of a linear system within the iterations allowed, as with a nearly incompressible material, "
                           "stretched cells or great contrasts of stiffness; dotyk.solver.pdas{ linear = \"factor\" } does without iterations"));
   Vector resisting = left.size() > 0 ? resistance(solution, forces - left) : Vector();
-  return {problem::least(unnoticed_, basis_.T * solution), std::move(resisting)};
+  return {problem::least(unnoticed_, basis_.displacements(std::move(solution))), std::move(resisting)};
 }
 
 namespace {
@@ -267,7 +264,7 @@ MakeSpdSolver multigrid(Levels levels, double most_iterations) {
     const bool of_signs = s.basis.of_signs(), other_signs = of_signs && !s.basis.trivial();
     StoredMatrix K;
     if (!of_signs) K = held_slightly(s.problem);
-    else if (other_signs && !s.slices) K = s.lower, K = with_signs(std::move(K), s.basis.T);
+    else if (other_signs && !s.slices) K = s.lower, K = with_signs(std::move(K), s.basis);
     const algebra::Triplets changed = other_signs ? SignedSolver::of_K(s.changed, s.basis.T.diagonal()) : s.changed;
     multigrid::Matrix matrix{other_signs && !s.slices ? K : s.lower, nodes, [&] {
                                DenseMatrix motions = all_rigid_motions(s.problem);

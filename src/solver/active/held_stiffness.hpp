@@ -70,7 +70,7 @@ class HeldStiffness {
     algebra::Vector resistance;  ///< TᵀKu, from the residual that an iterative solver returns; empty where the solver is direct
   };
   /// u under the forces b, zero in what is held.
-  algebra::Vector solve(const algebra::Vector& b) const { return solve_in_basis(basis_.T.transpose() * b).u; }
+  algebra::Vector solve(const algebra::Vector& b) const { return solve_in_basis(basis_.forces(b)).u; }
   /// The same for forces given as Tᵀb. An iterative solver stops at a residual of `tolerance` times their norm, and throws NotSolved if it cannot
   /// reach that.
   Displaced solve_in_basis(algebra::Vector forces, double tolerance = kTolerance) const;

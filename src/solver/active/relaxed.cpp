@@ -62,7 +62,7 @@ class NonlinearSmoothing {
     Vector given = lambda_;
     for (int k = 0; k < size(); ++k)
       if (const int r = rows_[k].row; r >= 0) given[r] = 0, rows_[k].x = jump[r];
-    left_ = (basis_.T.transpose() * (problem.load() - problem::rough_stiffness_times(problem, from.u) - problem.B.transpose() * given))(unknowns_);
+    left_ = basis_.forces(problem.load() - problem::rough_stiffness_times(problem, from.u) - problem.B.transpose() * given)(unknowns_);
   }
 
   /// Up and down.
@@ -74,7 +74,7 @@ class NonlinearSmoothing {
   problem::State state() const {
     Vector all = Vector::Zero(problem_.unknowns());
     all(unknowns_) = moved_;
-    return {from_.u + basis_.T * all, lambda_};
+    return {from_.u + basis_.displacements(std::move(all)), lambda_};
   }
 
  private:
