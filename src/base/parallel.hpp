@@ -68,4 +68,11 @@ inline void parallel_ranges(int count, int ranges, const std::function<void(int,
   parallel_for(ranges, [&](int k) { work(k, begin(k), begin(k + 1)); }, ranges);
 }
 
+/// Calls work(first, end) for ranges of so many numbers, on all cores where these are many.
+template <class Work>
+void parallel_parts(std::ptrdiff_t count, const Work& work) {
+  constexpr std::int64_t kFew = 100'000;
+  parallel_ranges(static_cast<int>(count), threads_for(count, kFew), [&](int, int first, int end) { work(first, end); });
+}
+
 }  // namespace dotyk

@@ -102,7 +102,7 @@ class PetscSolver final : public algebra::SpdSolver {
         piece = {}, ++from;
       }
     }
-    if (slices_) own.matrix = slices_->own();
+    if (slices_) take_matrix(own, slices_->own());
     return own;
   }
   /// Puts the solution of all ranks into x, and what is left, where it is asked for; returns that of rank 0.

@@ -26,7 +26,7 @@ class RankSlices final : public algebra::SlicedMatrix {
 
   const Workers& workers() const { return workers_; }
   const std::shared_ptr<const Numbering>& numbering() const { return numbering_; }
-  const HalfRows& own() const { return slice_->rows(); }  ///< of rank 0
+  const Slice& own() const { return *slice_; }  ///< of rank 0
 
  private:
   RankSlices(Workers workers, Numbering numbering);

@@ -73,7 +73,7 @@ using Slices = std::map<int, std::unique_ptr<Slice>>;
 
 std::unique_ptr<Cycle> make(Slices& slices) {
   Piece piece = receive_piece(world(), 0);
-  if (piece.slices) piece.matrix = slices.at(piece.slices)->rows();
+  if (piece.slices) take_matrix(piece, *slices.at(piece.slices));
   const int coarser = piece.coarser;
   auto cycle = std::make_unique<Cycle>(world(), std::move(piece), receive_change(world(), 0));
   if (HalfRows rows = cycle->take_coarser(); coarser) slices[coarser] = receive_rest(world(), std::move(rows));

@@ -56,9 +56,8 @@ struct CoarserBlock {
   std::shared_ptr<const SparseRows> functions;  ///< the unknowns of the finer block by this one's
 };
 
-/// All but K.
-CoarserBlock coarser(const Block& fine, int levels) {
-  std::vector<SparseRows> all = fine.coarse.functions(levels);
+/// All but K. `all`: of all coarser meshes.
+CoarserBlock coarser(const Block& fine, std::vector<SparseRows> all) {
   const std::vector<int> place = places(all[0]);
   CoarserBlock out{{}, with_columns(all[0], place)};
   const SparseRows& functions = *out.functions;
@@ -73,7 +72,8 @@ CoarserBlock coarser(const Block& fine, int levels) {
   block.motions = fine.motions;
   if (fine.rigid) block.rigid = [rigid = fine.rigid, P = out.functions] { return at_coarse(*P, rigid()); };
   all.erase(all.begin());
-  block.coarse = {levels - 1, fine.coarse.dimension, [all](int most) { return std::vector<SparseRows>(all.begin(), all.begin() + most); }};
+  const auto rest = std::make_shared<const std::vector<SparseRows>>(std::move(all));
+  block.coarse = {static_cast<int>(rest->size()), fine.coarse.dimension, [rest](int most) { return std::vector<SparseRows>(rest->begin(), rest->begin() + most); }};
   return out;
 }
 
@@ -84,12 +84,6 @@ int greatest(const SparseRows& B, int row) {
   for (SparseRows::InnerIterator it(B, row); it; ++it)
     if (std::abs(it.value()) > factor) factor = std::abs(it.value()), unknown = static_cast<int>(it.col());
   return unknown;
-}
-
-/// Is a row that of a node that both meshes have?
-bool has_node(const SparseRows& B, int row, const std::vector<char>& both) {
-  const int unknown = greatest(B, row);
-  return unknown >= 0 && both[unknown];
 }
 
 /// Rows whose forces are of one kind: of a group, or one component of the friction of one.
@@ -117,7 +111,7 @@ void take_stiffness(Problem& problem, algebra::SymmetricMatrix all) {
 
 DenseMatrix at_coarse(const SparseRows& functions, const DenseMatrix& values) {
   DenseMatrix out = DenseMatrix::Zero(functions.cols(), values.cols());
-  for (int i = 0; i < functions.rows(); ++i)
+  for (int i = 0; i < functions.rows() && values.cols() > 0; ++i)
     if (const int column = same(functions, i); column >= 0) out.row(column) = values.row(i);
   return out;
 }
@@ -154,19 +148,17 @@ std::vector<SparseRows> coarse_functions(const Problem& problem) {
   return all;
 }
 
-Coarser coarser(const Problem& problem, algebra::SymmetricMatrix stiffness) {
-  const int levels = coarser_meshes(problem);
-  if (levels == 0) throw std::logic_error("coarser: no coarser meshes are known");
+Coarser coarser(const Problem& problem, std::vector<SparseRows> functions, algebra::SymmetricMatrix stiffness) {
+  if (functions.empty()) throw std::logic_error("coarser: no coarser meshes are known");
+  const int levels = static_cast<int>(functions.size());
   Coarser out;
   algebra::Triplets entries;
-  std::vector<char> both;
   for (const Block& fine : problem.blocks) {
-    CoarserBlock coarse = coarser(fine, levels);
+    CoarserBlock coarse = coarser(fine, problem.blocks.size() == 1 ? std::move(functions) : fine.coarse.functions(levels));
     coarse.block.first = out.problem.unknowns();
     const SparseRows B = problem.rows_of(fine) * *coarse.functions;
     for (int r = 0; r < B.rows(); ++r)
       for (SparseRows::InnerIterator it(B, r); it; ++it) entries.emplace_back(r, coarse.block.first + static_cast<int>(it.col()), it.value());
-    for (int i = 0; i < coarse.functions->rows(); ++i) both.push_back(same(*coarse.functions, i) >= 0);
     if (stiffness.rows() == 0) coarse.block.K = algebra::congruent(fine.K, *coarse.functions);
     out.problem.blocks.push_back(std::move(coarse.block));
     out.functions.push_back(std::move(coarse.functions));
@@ -175,11 +167,17 @@ Coarser coarser(const Problem& problem, algebra::SymmetricMatrix stiffness) {
   out.problem.B = algebra::from_triplets<SparseRows>(problem.rows(), out.problem.unknowns(), entries);
   out.problem.c = problem.c, out.problem.groups = problem.groups, out.problem.friction = problem.friction;
   out.problem.chains = problem.chains, out.problem.measure = problem.measure, out.problem.row_name = problem.row_name;
+  const auto has_node = [&](int row) {  // is it that of a node that both meshes have?
+    const int unknown = greatest(problem.B, row);
+    if (unknown < 0) return false;
+    const std::size_t b = problem.block_of(unknown);
+    return same(*out.functions[b], unknown - problem.blocks[b].first) >= 0;
+  };
   out.kept.assign(problem.rows(), 1);
   for (const RowGroup& group : problem.groups)
-    for (int r = group.first; r < group.first + group.count && (group.law->unilateral() || prescribes(group)); ++r) out.kept[r] = has_node(problem.B, r, both);
+    for (int r = group.first; r < group.first + group.count && (group.law->unilateral() || prescribes(group)); ++r) out.kept[r] = has_node(r);
   for (const auto& [group, k, first, n] : problem.friction_points())
-    std::fill_n(out.kept.begin() + first, group.components, n >= 0 ? out.kept[n] : char(has_node(problem.B, first, both)));
+    std::fill_n(out.kept.begin() + first, group.components, n >= 0 ? out.kept[n] : char(has_node(first)));
   return out;
 }
 

@@ -37,17 +37,15 @@ class Elimination {
     RowBasis basis;
     for (int r = 0; r < problem_.rows(); ++r) basis.unknown.push_back(eliminate(r));
     const auto column = [&](int index) { return index < n_ ? index : basis.unknown[index - n_]; };
-    const bool diagonal = std::ranges::all_of(solved_, [&](const auto& of) {
+    const bool of_signs = std::ranges::all_of(solved_, [&](const auto& of) {
       const auto& [j, solved] = of;
-      return solved.terms.size() == 1 && column(solved.terms.begin()->first) == j;
+      return solved.terms.size() == 1 && column(solved.terms.begin()->first) == j && std::abs(solved.terms.begin()->second) == 1;
     });
-    if (diagonal) {  // as with one body on a rigid one: no list of all entries
-      basis.T.resize(n_, n_);
-      basis.T.setIdentity();
-      basis.kind = RowBasis::Kind::identity;
+    if (of_signs) {  // as with one body on a rigid one whose normal is an axis
       for (const auto& [j, solved] : solved_) {
-        const double factor = basis.T.valuePtr()[j] = solved.terms.begin()->second;
-        if (factor != 1) basis.kind = std::max(basis.kind, factor == -1 ? RowBasis::Kind::signs : RowBasis::Kind::general);
+        if (solved.terms.begin()->second == 1) continue;
+        if (basis.signs.size() == 0) basis.signs.setOnes(n_);
+        basis.signs[j] = -1;
       }
       return basis;
     }
@@ -155,17 +153,26 @@ class Elimination {
 
 RowBasis row_basis(const Problem& problem) { return Elimination(problem)(); }
 
+SparseRows RowBasis::times(const SparseRows& R) const {
+  if (!of_signs()) return R * T;
+  SparseRows product = R;
+  for (int r = 0; r < product.rows() && !trivial(); ++r)
+    for (SparseRows::InnerIterator it(product, r); it; ++it) it.valueRef() *= signs[it.col()];
+  return product;
+}
+
 SparseMatrix RowBasis::of_displacements(const Problem& problem) const {
-  std::vector<char> own(T.cols(), 0);
+  const int count = problem.unknowns();
+  std::vector<char> own(static_cast<std::size_t>(count), 0);
   algebra::Triplets entries;
   for (std::size_t r = 0; r < unknown.size(); ++r) {
     if (unknown[r] < 0) continue;
     own[unknown[r]] = 1;
     for (SparseRows::InnerIterator it(problem.B, static_cast<int>(r)); it; ++it) entries.emplace_back(unknown[r], static_cast<int>(it.col()), it.value());
   }
-  for (int i = 0; i < T.cols(); ++i)
+  for (int i = 0; i < count; ++i)
     if (!own[i]) entries.emplace_back(i, i, 1);
-  return algebra::from_triplets(T.rows(), T.cols(), entries);
+  return algebra::from_triplets(count, count, entries);
 }
 
 }  // namespace dotyk::problem

@@ -11,17 +11,24 @@ namespace dotyk::problem {
 /// is then to hold an unknown, and a spring in it is a number on the diagonal (the transformation of Wohlmuth and Krause, SIAM J. Sci. Comput. 25
 /// (2003), with a pivot for every row instead of a side for every contact). All other unknowns stay as they are.
 struct RowBasis {
-  algebra::SparseMatrix T;   ///< unknowns × unknowns
+  algebra::SparseMatrix T;   ///< unknowns × unknowns; empty where it is diagonal, each number 1 or −1
+  algebra::Vector signs;     ///< the diagonal then; empty where T is the identity
   std::vector<int> unknown;  ///< of every row; -1 where others leave it none: rows that nearly depend on each other, or reach too far
-  /// What T is: the identity; diagonal, each number 1 or −1, as on a rigid body whose normal is an axis, either way; or neither.
-  enum class Kind { identity, signs, general } kind = Kind::general;
-  bool trivial() const { return kind == Kind::identity; }
-  bool of_signs() const { return kind != Kind::general; }
+  bool of_signs() const { return T.rows() == 0; }
+  bool trivial() const { return of_signs() && signs.size() == 0; }
   /// T u' and Tᵀ f.
-  algebra::Vector displacements(algebra::Vector u) const { return trivial() ? std::move(u) : T * u; }
-  algebra::Vector forces(algebra::Vector f) const { return trivial() ? std::move(f) : T.transpose() * f; }
+  algebra::Vector displacements(algebra::Vector u) const { return of_signs() ? with_signs(std::move(u)) : T * u; }
+  algebra::Vector forces(algebra::Vector f) const { return of_signs() ? with_signs(std::move(f)) : T.transpose() * f; }
+  /// R T.
+  algebra::SparseRows times(const algebra::SparseRows& R) const;
   /// S = T⁻¹: u' = S u.
   algebra::SparseMatrix of_displacements(const Problem& problem) const;
+
+ private:
+  algebra::Vector with_signs(algebra::Vector x) const {
+    if (signs.size() > 0) x.array() *= signs.array();
+    return x;
+  }
 };
 
 /// Gives each row an unknown of its own. The candidates are those with a factor of at least a fifth of the row's greatest. Among them it takes the one

@@ -110,7 +110,8 @@ OwnedMat product(Mat S, Mat P) {
 
 Hierarchy::Hierarchy(const Ranks& ranks, Piece piece, const Change& first) : ranks_(ranks), piece_(std::move(piece)) {
   empty_.assign(static_cast<std::size_t>(piece_.own[0]), 0);
-  matrices_.emplace_back(ranks_, std::move(piece_.matrix));
+  if (piece_.lent) matrices_.emplace_back(piece_.lent, &piece_.lent->now());
+  else add_level(HalfMatrix(ranks_, std::move(piece_.matrix)));
   pending_.emplace_back(empty_.size(), 1);
   coarsen(first);
 }
@@ -129,12 +130,12 @@ void Hierarchy::coarsen(const Change& first) {
     take(first);
     if (aggregates_follow(ranks_.sum(piece_.own.back()), ranks_.sum(piece_.own[0]))) {
       fill_coarse();
-      take_aggregates(matrices_.back());
+      take_aggregates(*matrices_.back());
     }
   } else {
     take(first);
     if (S) take_aggregates(HalfMatrix(ranks_, std::move(piece_.displaced))), take_unknowns(S);
-    else take_aggregates(matrices_[0]);
+    else take_aggregates(matrix(0));
   }
   S = OwnedMat();
   piece_.unknowns = Rows(), piece_.modes = {};
@@ -142,8 +143,8 @@ void Hierarchy::coarsen(const Change& first) {
 }
 
 void Hierarchy::multiply(int level) {
-  products_.emplace_back(matrices_[level], interpolations_[level]);
-  if (level > 0) pending_.emplace_back(static_cast<std::size_t>(matrices_[level].rows()), 1);
+  products_.emplace_back(matrix(level), interpolations_[level]);
+  if (level > 0) pending_.emplace_back(static_cast<std::size_t>(matrix(level).rows()), 1);
 }
 
 void Hierarchy::take_functions(Mat S) {
@@ -152,15 +153,15 @@ void Hierarchy::take_functions(Mat S) {
     if (l == 0 && S) P = product(S, P);
     interpolations_.push_back(std::move(P));
     multiply(static_cast<int>(l));
-    matrices_.push_back(products_[l].pattern(matrices_[l], interpolations_[l]));
+    add_level(products_[l].pattern(matrix(l), interpolations_[l]));
   }
 }
 
 void Hierarchy::compute_coarser() {
-  const std::vector<char> computed = products_[0].compute(matrices_[0], interpolations_[0], matrices_[1], pending_[0]);
+  const std::vector<char> computed = products_[0].compute(matrix(0), interpolations_[0], matrix(1), pending_[0]);
   std::ranges::fill(pending_[0], 0);
-  coarser_ = matrices_[1].stored();
-  make_definite(matrices_[1], computed);
+  coarser_ = matrix(1).stored();
+  make_definite(matrix(1), computed);
 }
 
 void Hierarchy::take_aggregates(const HalfMatrix& of) {
@@ -175,7 +176,7 @@ void Hierarchy::take_aggregates(const HalfMatrix& of) {
   check(PCGetCoarseOperators(pc, &coarse, &operators));
   for (PetscInt l = count - 2; l >= 0; --l) {
     interpolations_.emplace_back(interpolations[l]);
-    matrices_.push_back(half_of(OwnedMat(operators[l])));
+    add_level(half_of(OwnedMat(operators[l])));
   }
   check(PetscFree(interpolations));
   check(PetscFree(operators));
@@ -186,7 +187,7 @@ void Hierarchy::take_unknowns(Mat S) {
   interpolations_[0] = product(S, interpolations_[0]);
   for (std::size_t l = 0; l < interpolations_.size(); ++l) {  // bodies that nothing joined meet in these patterns
     multiply(static_cast<int>(l));
-    matrices_[l + 1] = products_[l].pattern(matrices_[l], interpolations_[l]);
+    *matrices_[l + 1] = products_[l].pattern(matrix(l), interpolations_[l]);
   }
 }
 
@@ -211,13 +212,14 @@ void Hierarchy::truncate(const std::vector<int>& held) {
 
 bool Hierarchy::take(const Change& change) {
   bool positive = true;
-  HalfMatrix& A = matrices_[0];
+  HalfMatrix& A = matrix(0);
   for (std::size_t e = 0; e < change.values.size(); ++e) {
     const int row = change.rows[e] - A.first_row();
     double* number = A.find(row, change.columns[e]);
     if (!number) throw std::runtime_error("multigrid: the matrix has another pattern than the one that the solver was made for");
     if (change.rows[e] == change.columns[e] && !(change.values[e] > 0)) positive = false;
-    if (std::exchange(*number, change.values[e]) == change.values[e]) continue;
+    if (*number == change.values[e]) continue;
+    piece_.lent ? piece_.lent->change(*number, change.values[e]) : void(*number = change.values[e]);
     pending_[0][row] = 1;
     if (A.has(change.columns[e])) pending_[0][change.columns[e] - A.first_row()] = 1;
   }
@@ -237,16 +239,16 @@ bool Hierarchy::set(const Change& change) {
 
 void Hierarchy::fill_coarse() {
   for (std::size_t l = 0; l < products_.size(); ++l) {
-    const std::vector<char> computed = products_[l].compute(matrices_[l], interpolations_[l], matrices_[l + 1], pending_[l]);
-    make_definite(matrices_[l + 1], computed);
+    const std::vector<char> computed = products_[l].compute(matrix(l), interpolations_[l], matrix(l + 1), pending_[l]);
+    make_definite(matrix(l + 1), computed);
     std::ranges::fill(pending_[l], 0);
     for (std::size_t i = 0; l + 1 < products_.size() && i < computed.size(); ++i) pending_[l + 1][i] |= computed[i];
   }
 }
 
 double Hierarchy::bytes() const {
-  double sum = matrices_[0].bytes();
-  for (std::size_t l = 1; l < matrices_.size(); ++l) sum += matrices_[l].bytes() + bytes_of(interpolations_[l - 1]) + products_[l - 1].bytes();
+  double sum = matrices_[0]->bytes();
+  for (std::size_t l = 1; l < matrices_.size(); ++l) sum += matrices_[l]->bytes() + bytes_of(interpolations_[l - 1]) + products_[l - 1].bytes();
   return sum;
 }
 

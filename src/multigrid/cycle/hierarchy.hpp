@@ -4,6 +4,7 @@
 #include <array>
 #include <deque>
 #include <map>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -24,7 +25,7 @@ class Hierarchy {
   /// Of the matrix of the next coarser mesh this rank's rows, without the constructor's `first`, where the piece asks for them; once.
   HalfRows take_coarser() { return std::move(coarser_); }
   int levels() const { return static_cast<int>(matrices_.size()); }
-  HalfMatrix& matrix(int level) { return matrices_[level]; }              ///< from 0, the finest
+  HalfMatrix& matrix(int level) { return *matrices_[level]; }             ///< from 0, the finest
   Mat interpolation(int level) const { return interpolations_[level]; }   ///< from `level` + 1 to `level`
   int meshes() const { return static_cast<int>(piece_.functions.size()); }  ///< coarser ones: of so many levels after the finest
   double bytes() const;  ///< of this rank
@@ -32,6 +33,7 @@ class Hierarchy {
  private:
   /// Takes the entries. False where a number of the diagonal is not positive.
   bool take(const Change& change);
+  void add_level(HalfMatrix matrix) { matrices_.push_back(std::make_shared<HalfMatrix>(std::move(matrix))); }
   OwnedMat oblong(Rows& rows, int own_columns, std::array<int, 2> blocks);
   void coarsen(const Change& first);
   void compute_coarser();
@@ -50,7 +52,7 @@ class Hierarchy {
   Piece piece_;                                 // whose functions' arrays are the first interpolations'
   HalfRows coarser_;
   std::deque<Rows> others_;                     // beside them: in columns of other ranks
-  std::deque<HalfMatrix> matrices_;
+  std::vector<std::shared_ptr<HalfMatrix>> matrices_;  // the first may be lent by a slice
   std::vector<OwnedMat> interpolations_;
   std::vector<Galerkin> products_;              // of each interpolation
   std::vector<char> empty_;                     // own rows of the finest interpolation that are empty now

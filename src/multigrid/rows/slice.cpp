@@ -57,44 +57,52 @@ std::vector<long double> sum(const std::vector<double>& high, const std::vector<
   return all;
 }
 
-}  // namespace
-
-Slice::Slice(const Ranks& ranks, HalfRows rows, const std::vector<int>& idle) : matrix_(ranks, with_idle(ranks, std::move(rows), idle)) {}
-
-std::vector<double> Slice::diagonal() const {
-  std::vector<double> all;
-  for (int row = 0; row < matrix_.rows(); ++row) all.push_back(matrix_.diagonal(row));
-  return all;
-}
-
-int Slice::most_entries() const {
-  int most = 0;
-  for (int node = 0; node < matrix_.nodes(); ++node) {
-    int blocks = 0;
-    matrix_.each_block(node, [&](int, const double*, HalfMatrix::Read) { ++blocks; });
-    most = std::max(most, blocks * matrix_.block());
-  }
-  return most;
-}
-
-std::vector<std::vector<double>> Slice::times(Product how, const std::vector<std::vector<double>>& x) {
+std::vector<std::vector<double>> product(HalfMatrix& A, Slice::Product how, const std::vector<std::vector<double>>& x) {
   std::vector<std::vector<double>> y(x.size());
   switch (how) {
-    case Product::plain:
+    case Slice::Product::plain:
       y[0].resize(x[0].size());
-      matrix_.times(x[0].data(), y[0].data());
+      A.times(x[0].data(), y[0].data());
       break;
-    case Product::gross: y[0] = product(matrix_, x[0], matrix_.theirs(x[0].data()), [](double a) { return std::abs(a); }); break;
-    case Product::precise: {
-      const std::vector<double> high = matrix_.theirs(x[0].data());
+    case Slice::Product::gross: y[0] = product(A, x[0], A.theirs(x[0].data()), [](double a) { return std::abs(a); }); break;
+    case Slice::Product::precise: {
+      const std::vector<double> high = A.theirs(x[0].data());
       y[0].reserve(x[0].size()), y[1].reserve(x[0].size());
-      for (const long double number : product(matrix_, sum(x[0], x[1]), sum(high, matrix_.theirs(x[1].data())), [](double a) { return a; })) {
+      for (const long double number : product(A, sum(x[0], x[1]), sum(high, A.theirs(x[1].data())), [](double a) { return a; })) {
         y[0].push_back(static_cast<double>(number));
         y[1].push_back(static_cast<double>(number - y[0].back()));
       }
     }
   }
   return y;
+}
+
+}  // namespace
+
+Slice::Slice(const Ranks& ranks, HalfRows rows, const std::vector<int>& idle)
+    : matrix_(std::make_shared<LentMatrix>(HalfMatrix(ranks, with_idle(ranks, std::move(rows), idle)))) {}
+
+std::vector<double> Slice::diagonal() const {
+  return matrix_->as_before([](HalfMatrix& A) {
+    std::vector<double> all;
+    for (int row = 0; row < A.rows(); ++row) all.push_back(A.diagonal(row));
+    return all;
+  });
+}
+
+int Slice::most_entries() const {
+  const HalfMatrix& A = matrix_->now();
+  int most = 0;
+  for (int node = 0; node < A.nodes(); ++node) {
+    int blocks = 0;
+    A.each_block(node, [&](int, const double*, HalfMatrix::Read) { ++blocks; });
+    most = std::max(most, blocks * A.block());
+  }
+  return most;
+}
+
+std::vector<std::vector<double>> Slice::times(Product how, const std::vector<std::vector<double>>& x) {
+  return matrix_->as_before([&](HalfMatrix& A) { return product(A, how, x); });
 }
 
 }  // namespace dotyk::multigrid

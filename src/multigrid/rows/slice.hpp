@@ -1,30 +1,73 @@
 // One rank's rows of a matrix that stays as it is.
 #pragma once
 
+#include <memory>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "multigrid/rows/half_matrix.hpp"
 
 namespace dotyk::multigrid {
 
-/// The functions are collective, except the const ones.
+/// A matrix that a slice lends to a solver, so that both have one copy: numbers that the solver changes are remembered.
+class LentMatrix {
+ public:
+  explicit LentMatrix(HalfMatrix matrix) : matrix_(std::move(matrix)) {}
+
+  HalfMatrix& now() { return matrix_; }  ///< as the solver has it
+  void change(double& number, double to) {
+    before_.try_emplace(&number, number);
+    number = to;
+  }
+  /// Calls work(matrix), with the slice's numbers.
+  template <class Work>
+  auto as_before(const Work& work) {
+    struct Exchange {
+      LentMatrix& of;
+      explicit Exchange(LentMatrix& lent) : of(lent) { of.exchange(); }
+      ~Exchange() { of.exchange(); }
+    } const exchange(*this);
+    return work(matrix_);
+  }
+  void give_back() { exchange(), before_.clear(); }
+
+ private:
+  void exchange() {
+    for (auto& [place, number] : before_) std::swap(*place, number);
+  }
+
+  HalfMatrix matrix_;
+  std::unordered_map<double*, double> before_;
+};
+
+/// times() and the constructor are collective.
 class Slice {
  public:
   /// `idle`: own rows without unknown. Their diagonal becomes the mean of all others.
   Slice(const Ranks& ranks, HalfRows rows, const std::vector<int>& idle);
 
-  const HalfRows& rows() const { return matrix_.stored(); }
+  HalfRows rows() const {
+    return matrix_->as_before([](HalfMatrix& A) { return A.stored(); });
+  }
+  /// For a solver to change, until nothing points to it any more; null where another solver has it.
+  std::shared_ptr<LentMatrix> lend() const {
+    if (matrix_.use_count() > 1) return nullptr;
+    return {matrix_.get(), [lent = matrix_](LentMatrix*) { lent->give_back(); }};
+  }
   std::vector<double> diagonal() const;
   int most_entries() const;  ///< as in algebra::SlicedMatrix
   /// Some own rows, counted from the rank's first. Columns: counted over all ranks, idle ones among them.
-  Rows some(const std::vector<int>& rows) const { return matrix_.full(rows); }
+  Rows some(const std::vector<int>& rows) const {
+    return matrix_->as_before([&](HalfMatrix& A) { return A.full(rows); });
+  }
 
   enum class Product : int { plain, precise, gross };
   /// A x, or |A| x, of own rows. `precise`: in extended precision, where x and the product are each the sum of two vectors.
   std::vector<std::vector<double>> times(Product how, const std::vector<std::vector<double>>& x);
 
  private:
-  HalfMatrix matrix_;
+  std::shared_ptr<LentMatrix> matrix_;
 };
 
 }  // namespace dotyk::multigrid

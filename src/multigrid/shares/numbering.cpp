@@ -195,8 +195,10 @@ void Numbering::take_unknowns() {
 }
 
 void Numbering::put(int rank, const std::vector<double>& part, algebra::Vector& x) const {
-  for (std::size_t k = 0; k < part.size(); ++k)
-    if (const int i = unknown_[first_[0][rank] + k]; i >= 0) x[i] = part[k];
+  parallel_parts(std::ssize(part), [&](int begin, int end) {
+    for (int k = begin; k < end; ++k)
+      if (const int i = unknown_[first_[0][rank] + k]; i >= 0) x[i] = part[k];
+  });
 }
 
 int Numbering::rank_of(int row) const {

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "base/parallel.hpp"
 #include "multigrid/multigrid.hpp"
 
 namespace dotyk::multigrid {
@@ -34,8 +35,10 @@ class Numbering {
   template <class Number>
   std::vector<double> part(int rank, const Number& of_unknown) const {
     std::vector<double> part(static_cast<std::size_t>(first_[0][rank + 1] - first_[0][rank]), 0.0);
-    for (std::size_t k = 0; k < part.size(); ++k)
-      if (const int i = unknown_[first_[0][rank] + k]; i >= 0) part[k] = of_unknown(i);
+    parallel_parts(std::ssize(part), [&](int begin, int end) {
+      for (int k = begin; k < end; ++k)
+        if (const int i = unknown_[first_[0][rank] + k]; i >= 0) part[k] = of_unknown(i);
+    });
     return part;
   }
   /// The way back, into a vector of all unknowns.

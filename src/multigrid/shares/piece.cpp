@@ -148,6 +148,10 @@ void send(const Ranks& ranks, int to, Piece& piece) {
   visit_all(piece, [&](const auto& numbers) { ranks.send(to, numbers); });
 }
 Piece receive_piece(const Ranks& ranks, int from) { return receive_whole<Piece>(ranks, from); }
+void take_matrix(Piece& piece, const Slice& slice) {
+  piece.lent = slice.lend();
+  if (!piece.lent) piece.matrix = slice.rows();
+}
 void send(const Ranks& ranks, int to, Change& change) {
   visit_all(change, [&](const auto& numbers) { ranks.send(to, numbers); });
 }

@@ -1,11 +1,12 @@
 // What one process works on.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "multigrid/processes/ranks.hpp"
-#include "multigrid/rows/half_matrix.hpp"
 #include "multigrid/rows/rows.hpp"
+#include "multigrid/rows/slice.hpp"
 #include "multigrid/shares/numbering.hpp"
 
 namespace dotyk::multigrid {
@@ -17,7 +18,8 @@ struct Piece {
   int coarser = 0;               ///< the number of the slices that the matrix of the next coarser mesh becomes; 0: nobody asks for it
   std::vector<int> own;          ///< how many rows of each level are this rank's
   HalfRows matrix;               ///< idle rows have the mean of its diagonal
-  int slices = 0;                ///< the number of the slices that `matrix` is taken from; 0: it is given
+  int slices = 0;                ///< the number of the slices that have the matrix; 0: it is given
+  std::shared_ptr<LentMatrix> lent = nullptr;  ///< the slice's, in place of `matrix`; it is not sent
   std::vector<Rows> functions;   ///< of each coarser mesh
   HalfRows displaced;            ///< as in Matrix, where there are no coarser meshes; idle rows as in `matrix`
   Rows unknowns;                 ///< as in Matrix; idle rows as in the identity. No rows where it has none
@@ -51,6 +53,8 @@ class Pieces {
 };
 void send(const Ranks& ranks, int to, Piece& piece);
 Piece receive_piece(const Ranks& ranks, int from);
+/// Takes the matrix of the slice, on loan if no other solver has it.
+void take_matrix(Piece& piece, const Slice& slice);
 
 /// How a matrix differs from the one before, as far as one rank's rows of the finest level are concerned.
 struct Change {

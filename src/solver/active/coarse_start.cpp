@@ -31,15 +31,16 @@ CoarseStart coarse_start(const Problem& problem, const Pdas& settings, Monitor& 
   CoarseStart start;
   Stopwatch watch;
   monitor.phase("ordering");
-  algebra::SymmetricMatrix stiffness;
+  std::vector<algebra::SparseRows> functions = problem::coarse_functions(problem);
+  Nested nested{functions};
   const auto rigid = [&] {
     const algebra::StopFactoring stop(monitor);
     return problem::rigid_motions(problem);
   }();
-  start.stiffness = std::make_shared<HeldStiffness>(problem, rigid, settings.linear_or_factor(), monitor, &stiffness);
+  start.stiffness = std::make_shared<HeldStiffness>(problem, rigid, settings.linear_or_factor(), monitor, &nested);
   start.ordering = watch.lap();
   monitor.phase("solving on coarser meshes");
-  problem::Coarser coarse = problem::coarser(problem, std::move(stiffness));
+  problem::Coarser coarse = problem::coarser(problem, std::move(functions), std::move(nested.stiffness));
   const CoarseRows rows(coarse.problem, coarse.kept);
   if (rows.count() == 0) return start;
   const Problem part = rows.restricted();

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "algebra/krylov/conjugate_residuals.hpp"
+#include "base/parallel.hpp"
 #include "base/text.hpp"
 #include "solver/active/held_stiffness.hpp"
 #include "solver/active/step.hpp"
@@ -38,12 +39,13 @@ constexpr double kShareOfDirection = 0.1;  ///< how exactly directions of conjug
 class HeldStep final : public Step {
  public:
   HeldStep(const Problem& problem, HeldStiffness& stiffness, const Vector& rho, double tol)
-      : problem_(problem), stiffness_(stiffness), rho_(rho), least_(std::max(kUnbalanced, stiffness.solver().iterates() ? kOfTolerance * tol : 0)), own_(problem.row_stiffness()), trivial_(stiffness.basis().trivial()),
-        T_(trivial_ ? LongMatrix() : LongMatrix(stiffness.basis().T.cast<long double>())),
-        f_(problem.load()), u_(LongVector::Zero(problem.unknowns())), before_(u_) {
+      : problem_(problem), stiffness_(stiffness), rho_(rho), least_(std::max(kUnbalanced, stiffness.solver().iterates() ? kOfTolerance * tol : 0)), own_(problem.row_stiffness()),
+        basis_(stiffness.basis()), T_(basis_.T.cast<long double>()),
+        rows_(basis_.of_signs() ? LongRows(basis_.times(problem.B).cast<long double>()) : LongRows(problem.B.cast<long double>() * T_)),
+        f_(problem.load()), of_loads_(f_.lpNorm<1>()), u_(LongVector::Zero(problem.unknowns())), before_(u_) {
     for (const problem::FrictionGroup& group : problem.friction)
       for (int r = group.first; r < group.row(group.points()); ++r)
-        if (stiffness.basis().unknown[r] < 0)
+        if (basis_.unknown[r] < 0)
           throw NotSolved(text("pdas on all unknowns cannot treat the ", group.law->name(), " of the ", group.name, " at ", problem.name_of(r),
                                ": other rows have taken the unknowns there, as at corners; newton can"));
   }
@@ -79,12 +81,16 @@ class HeldStep final : public Step {
   /// How exact elastic_ is: as a product in double precision, or in extended.
   enum class Known { no, roughly, precisely };
 
-  void move(const Vector& by) { u_ += by.cast<long double>(), forget(); }
+  void move(const Vector& by) { add(by), forget(); }
+  void add(const Vector& by) {
+    parallel_parts(by.size(), [&](int first, int end) { u_.segment(first, end - first) += by.segment(first, end - first).cast<long double>(); });
+  }
   void forget() { known_ = false, elastic_known_ = Known::no; }
   void resist(const Vector& resistance) {
     known_ = false;
     if (resistance.size() == 0) return forget();
-    if (elastic_known_ != Known::no) elastic_ -= resistance;
+    if (elastic_known_ == Known::no) return;
+    parallel_parts(resistance.size(), [&](int first, int end) { elastic_.segment(first, end - first) -= resistance.segment(first, end - first); });
   }
   /// The resistance is rounded as a product in double precision. Where the movement is at most a hundredth of u, this error is a hundredth of that of Ku, and
   /// elastic_ still counts as precise. Where springs hold rows that have no unknown of their own it does not: there great terms cancel.
@@ -92,7 +98,7 @@ class HeldStep final : public Step {
     constexpr double kSmall = 0.01;
     if (elastic_known_ == Known::precisely && (sprung_ || !(by.u.lpNorm<Eigen::Infinity>() <= kSmall * static_cast<double>(u_.lpNorm<Eigen::Infinity>()))))
       elastic_known_ = Known::roughly;
-    u_ += by.u.cast<long double>();
+    add(by.u);
     resist(by.resistance);
   }
 
@@ -118,10 +124,10 @@ class HeldStep final : public Step {
       const double compliance = l.added_compliance(r, rho_[r]);
       if (compliance > 0) {
         spring_[r] = 1 / compliance;
-        sprung_ = sprung_ || stiffness_.basis().unknown[r] < 0;
+        sprung_ = sprung_ || basis_.unknown[r] < 0;
         continue;
       }
-      if (const int own = stiffness_.basis().unknown[r]; own >= 0) {
+      if (const int own = basis_.unknown[r]; own >= 0) {
         held_[own] = 1;
         moved[own] = -static_cast<double>(gap(r));
         holding_.push_back({r, own});
@@ -132,7 +138,7 @@ class HeldStep final : public Step {
     }
     known_ = false;
     if (moved.isZero(0)) return;
-    trivial_ ? u_ += moved.cast<long double>() : u_ += T_ * moved.cast<long double>();
+    basis_.of_signs() ? u_ += basis_.displacements(moved).cast<long double>() : u_ += T_ * moved.cast<long double>();
     if (elastic_known_ == Known::no) return;
     elastic_known_ = Known::roughly;
     resist(stiffness_.resistance_of_watched(moved));
@@ -144,7 +150,7 @@ class HeldStep final : public Step {
     for (Linearisation::Slip& s : slips_) {
       s.across = std::min(s.across, kMostAcross * own_[s.row]);
       target_.segment(s.row, s.components) = problem_.c.segment(s.row, s.components);
-      s.add_stiffness(stiffness_.basis().unknown, across_);
+      s.add_stiffness(basis_.unknown, across_);
     }
   }
 
@@ -156,7 +162,7 @@ class HeldStep final : public Step {
   }
 
   double multiplier(int row, const Vector& left) const {  // of a scalar row
-    const int own = stiffness_.basis().unknown[row];
+    const int own = basis_.unknown[row];
     return own >= 0 && held_[own] ? left[own] : static_cast<double>(lambda_[row] + spring_[row] * gap(row));
   }
 
@@ -197,57 +203,49 @@ class HeldStep final : public Step {
   /// What residual() loses where u grows by that.
   Vector response(const HeldStiffness::Displaced& by) const {
     const Vector moved = problem_.B * by.u;
-    const auto& T = stiffness_.basis().T;
-    const Vector before = (by.resistance.size() > 0 ? by.resistance : Vector(T.transpose() * problem::rough_stiffness_times(problem_, by.u))) +
-                          T.transpose() * (problem_.B.transpose() * spring_.cwiseProduct(moved));
+    const Vector before = (by.resistance.size() > 0 ? by.resistance : basis_.forces(problem::rough_stiffness_times(problem_, by.u))) +
+                          basis_.forces(problem_.B.transpose() * spring_.cwiseProduct(moved));
     Vector lost = before;
     for (const Linearisation::Slip& s : slips_) {
-      const int own = s.by_normal > 0 ? stiffness_.basis().unknown[s.normal] : -1;
+      const int own = s.by_normal > 0 ? basis_.unknown[s.normal] : -1;
       const double pressed = s.by_normal > 0 ? (own >= 0 && held_[own] ? -before[own] : spring_[s.normal] * moved[s.normal]) : 0;
       const Vector force = s.beyond(moved.segment(s.row, s.components), pressed);
-      for (int i = 0; i < s.components; ++i) lost[stiffness_.basis().unknown[s.row + i]] += force[i];
+      for (int i = 0; i < s.components; ++i) lost[basis_.unknown[s.row + i]] += force[i];
     }
     for (const Holding& h : holding_) lost[h.unknown] = 0;
     return lost;
   }
 
-  /// In the basis where rows are unknowns.
+  /// f − Ku − Bᵀλ in the basis where rows are unknowns.
   const Vector& forces() {
     if (std::exchange(known_, true)) return forces_;
-    const Known how = unbalanced_ < kRounding ? Known::precisely : Known::roughly;
-    const bool carried = elastic_known_ >= how;
-    LongVector all = carried ? LongVector(LongVector::Zero(u_.size())) : elastic_anew(how);
-    gross_ = f_.lpNorm<1>();
+    know_elastic(unbalanced_ < kRounding ? Known::precisely : Known::roughly);
+    Vector& left = forces_;
+    left = elastic_, gross_ = of_loads_;
     for (int r = 0; r < problem_.rows(); ++r) {
       const long double multiplier = lambda_[r] + spring_[r] * gap(r);
       if (multiplier == 0) continue;
-      for (SparseRows::InnerIterator it(problem_.B, r); it; ++it) {
-        all[it.col()] -= it.value() * multiplier;
-        gross_ += static_cast<double>(std::abs(it.value() * multiplier));
-      }
+      for (LongRows::InnerIterator it(rows_, r); it; ++it) left[it.col()] -= static_cast<double>(it.value() * multiplier);
+      gross_ += problem_.B.row(r).cwiseAbs().sum() * static_cast<double>(std::abs(multiplier));
     }
-    Vector& left = forces_;
-    left = in_basis(all);
-    if (carried) left += elastic_;
     const Vector without = slips_.empty() ? Vector() : left;
     for (const Linearisation::Slip& s : slips_) {
       const Vector force = beyond(s, without);
-      for (int i = 0; i < s.components; ++i) left[stiffness_.basis().unknown[s.row + i]] -= force[i];
+      for (int i = 0; i < s.components; ++i) left[basis_.unknown[s.row + i]] -= force[i];
     }
     for (const Holding& h : holding_) gross_ += std::abs(left[h.unknown]);
-    of_rows_ = gross_ > 0 ? (gross_ - f_.lpNorm<1>()) / gross_ : 1;
+    of_rows_ = gross_ > 0 ? (gross_ - of_loads_) / gross_ : 1;
     return left;
   }
 
-  Vector in_basis(const LongVector& forces) const { return trivial_ ? Vector(forces.cast<double>()) : Vector((T_.transpose() * forces).cast<double>()); }
-
-  /// f − Ku by a product, which is remembered as elastic_.
-  LongVector elastic_anew(Known how) {
-    LongVector all = f_.cast<long double>();
-    if (how == Known::precisely) all -= problem::precise_stiffness_times(problem_, u_);
-    else all -= problem::rough_stiffness_times(problem_, u_.cast<double>()).cast<long double>();
-    elastic_ = in_basis(all), elastic_known_ = how;
-    return all;
+  /// By a product, where elastic_ is not known as exactly.
+  void know_elastic(Known how) {
+    if (elastic_known_ >= how) return;
+    elastic_known_ = how;
+    if (how == Known::roughly) return void(elastic_ = basis_.forces(f_ - problem::rough_stiffness_times(problem_, u_.cast<double>())));
+    const LongVector internal = problem::precise_stiffness_times(problem_, u_);
+    if (basis_.of_signs()) elastic_ = basis_.forces((f_.cast<long double>() - internal).cast<double>());
+    else elastic_ = (T_.transpose() * LongVector(f_.cast<long double>() - internal)).cast<double>();
   }
 
   /// Bu − t of a row.
@@ -320,9 +318,12 @@ class HeldStep final : public Step {
   const double least_;   ///< the least value that unbalanced_ may take
   const Vector own_;
   using LongMatrix = Eigen::SparseMatrix<long double>;
-  const bool trivial_;   ///< is T the identity?
-  const LongMatrix T_;   ///< else
-  Vector f_;
+  using LongRows = Eigen::SparseMatrix<long double, Eigen::RowMajor>;
+  const problem::RowBasis& basis_;
+  const LongMatrix T_;   ///< its T; empty where that is
+  const LongRows rows_;  ///< B T
+  const Vector f_;
+  const double of_loads_;  ///< ‖f‖₁
   Vector constant_, spring_, target_;  ///< rows: λ of those that are not active; s and t of λ = s(Bu − t), and Bu of rigid ones
   std::vector<char> held_;
   std::vector<Holding> holding_;

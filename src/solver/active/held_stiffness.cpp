@@ -7,6 +7,7 @@
 #include "algebra/congruent.hpp"
 #include "algebra/dense/generalised_inverse.hpp"
 #include "algebra/entries_of.hpp"
+#include "base/parallel.hpp"
 #include "base/text.hpp"
 #include "multigrid/multigrid.hpp"
 #include "problem/coarser.hpp"
@@ -36,16 +37,15 @@ bool has_room(const SparseMatrix& matrix, const algebra::Triplets& entries) {
 
 /// TᵀKT of a lower triangle and a T of signs, or K of TᵀKT.
 StoredMatrix with_signs(StoredMatrix lower, const problem::RowBasis& basis) {
-  const double* sign = basis.T.valuePtr();
   for (Eigen::Index j = 0; j < lower.cols() && !basis.trivial(); ++j)
-    for (SparseMatrix::InnerIterator it(lower, j); it; ++it) it.valueRef() *= sign[it.row()] * sign[j];
+    for (SparseMatrix::InnerIterator it(lower, j); it; ++it) it.valueRef() *= basis.signs[it.row()] * basis.signs[j];
   return lower;
 }
 
 }  // namespace
 
-HeldStiffness::HeldStiffness(const Problem& problem, const RigidMotions& rigid, const MakeSpdSolver& make, Monitor& monitor, algebra::SymmetricMatrix* coarser)
-    : problem_(problem), basis_(problem::row_basis(problem)), unnoticed_(problem::unnoticed_displacements(problem, rigid)), rows_(problem.B * basis_.T),
+HeldStiffness::HeldStiffness(const Problem& problem, const RigidMotions& rigid, const MakeSpdSolver& make, Monitor& monitor, Nested* nested)
+    : problem_(problem), basis_(problem::row_basis(problem)), unnoticed_(problem::unnoticed_displacements(problem, rigid)), rows_(basis_.times(problem.B)),
       fixing_(algebra::fixing_unknowns(unnoticed_)) {
   rows_.prune([](auto, auto, double value) { return std::abs(value) > 1e-14; });
   assemble(make.takes_slices);
@@ -58,7 +58,7 @@ HeldStiffness::HeldStiffness(const Problem& problem, const RigidMotions& rigid, 
   for (const int unknown : fixing_) change(unknown, unknown, lower().coeff(unknown, unknown));  // carries nothing
   if (rigid.noticed.cols() > 0) spring_rows(problem.row_stiffness());
   std::vector<Entry> first = now();
-  solver_ = make.make({lower(), numbers(first), problem, basis_, monitor, coarser, slices_});
+  solver_ = make.make({lower(), numbers(first), problem, basis_, monitor, nested, slices_});
   told_ = std::move(first);
 }
 
@@ -161,39 +161,54 @@ bool HeldStiffness::factor(const Vector& spring, const std::vector<char>& held, 
   return definite;
 }
 
+void HeldStiffness::empty_held(Vector& forces) const {
+  parallel_parts(forces.size(), [&](int first, int end) {
+    for (int i = first; i < end; ++i)
+      if (held_[i]) forces[i] = 0;
+  });
+}
+
 Vector HeldStiffness::resistance(const Vector& y, Vector Ay) const {
-  const auto is_held = [&](const Entry& e) { return held_[e.row] || held_[e.column]; };
   for (const Entry& e : told_) {
-    if (is_held(e)) continue;
+    if (held_[e.row] || held_[e.column]) continue;
     Ay[e.row] -= e.by * y[e.column];
     if (e.row != e.column) Ay[e.column] -= e.by * y[e.row];
   }
-  const Vector of_held = resistance_of_watched(y);
-  for (Eigen::Index i = 0; i < Ay.size(); ++i)
-    if (held_[i]) Ay[i] = of_held[i];
+  empty_held(Ay);
+  each_watched_force(y, [&](int unknown, double force) {
+    if (held_[unknown]) Ay[unknown] += force;
+  });
   return Ay;
 }
 
 Vector HeldStiffness::resistance_of_watched(const Vector& y) const {
   Vector forces = Vector::Zero(y.size());
-  const double* K = lower().valuePtr();
-  for (const Entry& e : of_watched_) {
-    forces[e.row] += K[e.place] * y[e.column];
-    if (e.row != e.column) forces[e.column] += K[e.place] * y[e.row];
-  }
+  each_watched_force(y, [&](int unknown, double force) { forces[unknown] += force; });
   return forces;
 }
 
+template <class Visit>
+void HeldStiffness::each_watched_force(const Vector& y, const Visit& visit) const {
+  const double* K = lower().valuePtr();
+  for (const Entry& e : of_watched_) {
+    visit(e.row, K[e.place] * y[e.column]);
+    if (e.row != e.column) visit(e.column, K[e.place] * y[e.row]);
+  }
+}
+
 HeldStiffness::Displaced HeldStiffness::solve_in_basis(Vector forces, double tolerance) const {
-  for (Eigen::Index i = 0; i < forces.size(); ++i)
-    if (held_[i]) forces[i] = 0;
+  empty_held(forces);
   Vector left;
   Vector solution = solver_->solve(forces, tolerance, &left);
-  if (solver_->iterates() && forces.allFinite() && !solution.allFinite())
+  if (solver_->iterates() && !solution.allFinite() && forces.allFinite())
     throw SlowIterations(text(solver_->method(), ": no solution of a linear system within the iterations allowed, as with a nearly incompressible material, "
                           "stretched cells or great contrasts of stiffness; dotyk.solver.pdas{ linear = \"factor\" } does without iterations"));
-  Vector resisting = left.size() > 0 ? resistance(solution, forces - left) : Vector();
-  return {problem::least(unnoticed_, basis_.displacements(std::move(solution))), std::move(resisting)};
+  if (left.size() == 0) forces.resize(0);
+  else {
+    parallel_parts(forces.size(), [&](int first, int end) { forces.segment(first, end - first) -= left.segment(first, end - first); });
+    forces = resistance(solution, std::move(forces));
+  }
+  return {problem::least(unnoticed_, basis_.displacements(std::move(solution))), std::move(forces)};
 }
 
 namespace {
@@ -221,7 +236,7 @@ SparseMatrix held_slightly(const Problem& problem) {
 /// Solves with TᵀKT, T of signs, by a solver for K.
 class SignedSolver final : public algebra::SpdSolver {
  public:
-  SignedSolver(const SparseMatrix& T, std::unique_ptr<algebra::SpdSolver> of_K) : signs_(T.diagonal()), of_K_(std::move(of_K)) {}
+  SignedSolver(const Vector& signs, std::unique_ptr<algebra::SpdSolver> of_K) : signs_(signs), of_K_(std::move(of_K)) {}
 
   /// Entries of K from such of TᵀKT.
   static algebra::Triplets of_K(const algebra::Triplets& entries, const Vector& signs) {
@@ -260,12 +275,14 @@ MakeSpdSolver incomplete_factor() {
 MakeSpdSolver multigrid(Levels levels, double most_iterations) {
   const auto make = [levels, most_iterations](const SpdSystem& s) -> std::unique_ptr<algebra::SpdSolver> {
     const std::vector<int> nodes = problem::nodes(s.problem);
-    const auto coarse = levels == Levels::meshes ? problem::coarse_functions(s.problem) : std::vector<SparseRows>();
+    const bool meshes = levels == Levels::meshes, told = meshes && s.nested;
+    const auto found = meshes && !told ? problem::coarse_functions(s.problem) : std::vector<SparseRows>();
+    const std::vector<SparseRows>& coarse = told ? s.nested->functions : found;
     const bool of_signs = s.basis.of_signs(), other_signs = of_signs && !s.basis.trivial();
     StoredMatrix K;
     if (!of_signs) K = held_slightly(s.problem);
     else if (other_signs && !s.slices) K = s.lower, K = with_signs(std::move(K), s.basis);
-    const algebra::Triplets changed = other_signs ? SignedSolver::of_K(s.changed, s.basis.T.diagonal()) : s.changed;
+    const algebra::Triplets changed = other_signs ? SignedSolver::of_K(s.changed, s.basis.signs) : s.changed;
     multigrid::Matrix matrix{other_signs && !s.slices ? K : s.lower, nodes, [&] {
                                DenseMatrix motions = all_rigid_motions(s.problem);
                                for (const SparseRows& functions : coarse) motions = problem::at_coarse(functions, motions);
@@ -273,12 +290,12 @@ MakeSpdSolver multigrid(Levels levels, double most_iterations) {
                              }};
     matrix.changed = &changed, matrix.slices = s.slices;
     matrix.most_iterations = most_iterations;
-    if (!coarse.empty()) matrix.coarse = &coarse, matrix.dimension = s.problem.blocks[0].coarse.dimension, matrix.coarser = s.coarser;
+    if (!coarse.empty()) matrix.coarse = &coarse, matrix.dimension = s.problem.blocks[0].coarse.dimension, matrix.coarser = told ? &s.nested->stiffness : nullptr;
     const SparseMatrix unknowns = of_signs ? SparseMatrix() : s.basis.of_displacements(s.problem);
     if (!of_signs) matrix.displaced = &K, matrix.unknowns = &unknowns;
     auto solver = multigrid::make_solver(matrix, s.monitor);
     if (!other_signs) return solver;
-    return std::make_unique<SignedSolver>(s.basis.T, std::move(solver));
+    return std::make_unique<SignedSolver>(s.basis.signs, std::move(solver));
   };
   return {make, levels == Levels::meshes};  // ranks share out a matrix for aggregates by its pattern
 }

@@ -12,6 +12,12 @@
 
 namespace dotyk::solver {
 
+/// What nested iteration shares with a solver by multigrid.
+struct Nested {
+  const std::vector<algebra::SparseRows>& functions;  ///< problem::coarse_functions()
+  algebra::SymmetricMatrix stiffness = {};            ///< receives PᵀKP of problem::coarser() where the solver makes it
+};
+
 /// What a linear solver is made from: the first matrix, in the basis where rows are unknowns, and the problem that it belongs to.
 struct SpdSystem {
   const algebra::SparseMatrix& lower;  ///< nothing held, no springs; where there are slices, of entries near rows alone
@@ -19,7 +25,7 @@ struct SpdSystem {
   const problem::Problem& problem;
   const problem::RowBasis& basis;
   Monitor& monitor;  ///< outlives the solver
-  algebra::SymmetricMatrix* coarser;  ///< receives PᵀKP of problem::coarser() where the solver makes it; null: nobody asks
+  Nested* nested;    ///< null: there is no nested iteration
   const algebra::SlicedMatrix* slices = nullptr;  ///< K; null: there are none
 };
 struct MakeSpdSolver {
@@ -54,9 +60,9 @@ MakeSpdSolver multigrid(Levels levels, double most_iterations = std::numeric_lim
 class HeldStiffness {
  public:
   static constexpr double kTolerance = 1e-12;
-  /// `coarser`: as in SpdSystem.
+  /// `nested`: as in SpdSystem.
   HeldStiffness(const problem::Problem& problem, const problem::RigidMotions& rigid, const MakeSpdSolver& make, Monitor& monitor,
-                algebra::SymmetricMatrix* coarser = nullptr);
+                Nested* nested = nullptr);
 
   const problem::RowBasis& basis() const { return basis_; }
   /// A lower triangle that has at least the entries of TᵀKT in rows and columns of flagged unknowns.
@@ -96,8 +102,12 @@ class HeldStiffness {
   void change(int row, int column, double by);
   void spring_rows(const algebra::Vector& spring);
   void watch(const std::vector<char>& held);
+  void empty_held(algebra::Vector& forces) const;  ///< zeros there
   /// TᵀKT y from A y, for a y that is zero at what is held: A has springs in addition, and lacks the rows of held unknowns.
   algebra::Vector resistance(const algebra::Vector& y, algebra::Vector Ay) const;
+  /// Calls visit(unknown, force) for what makes up TᵀKT y at the unknowns that rows may hold.
+  template <class Visit>
+  void each_watched_force(const algebra::Vector& y, const Visit& visit) const;
   /// What differs from lower(), each place once and in their order; changed_ is empty then.
   std::vector<Entry> now();
   /// The numbers of these entries, and of those that the solver was told of and that no longer differ.

@@ -35,9 +35,11 @@ std::vector<int> unknowns_near(const std::vector<int>& rows, const HeldStiffness
   std::vector<char> near(static_cast<std::size_t>(unknowns_of_all), 0);
   for (const int r : rows)
     if (const int own = stiffness.basis().unknown[r]; own >= 0) near[own] = 1;
+  std::vector<char> outermost = near;
   for (int k = 0; k < kLayers; ++k) {
     std::vector<char> wider = near;
-    algebra::each_entry_of(stiffness.near(near).lower(), near, [&](int, int row, int column) { wider[row] = wider[column] = 1; });
+    algebra::each_entry_of(stiffness.near(outermost).lower(), outermost, [&](int, int row, int column) { wider[row] = wider[column] = 1; });
+    for (int i = 0; i < unknowns_of_all; ++i) outermost[i] = wider[i] && !near[i];
     near = std::move(wider);
   }
   std::vector<int> unknowns;
@@ -74,7 +76,9 @@ class NonlinearSmoothing {
   problem::State state() const {
     Vector all = Vector::Zero(problem_.unknowns());
     all(unknowns_) = moved_;
-    return {from_.u + basis_.displacements(std::move(all)), lambda_};
+    all = basis_.displacements(std::move(all));
+    all += from_.u;
+    return {std::move(all), lambda_};
   }
 
  private:
