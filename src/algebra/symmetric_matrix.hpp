@@ -20,8 +20,8 @@ class SlicedMatrix {
   virtual Vector times(const Eigen::Ref<const Vector>& x) const = 0;
   virtual LongVector times(const Eigen::Ref<const LongVector>& x) const = 0;  ///< in extended precision
   virtual Vector gross_times(const Vector& x) const = 0;                      ///< |A| |x|
-  /// The lower triangle, with the entries in rows and columns of flagged unknowns alone.
-  virtual StoredMatrix near(const std::vector<char>& of) const = 0;
+  /// The lower triangle, with the entries in rows and columns of flagged unknowns alone. Before, so many layers of neighbours are flagged, too.
+  virtual StoredMatrix near(std::vector<char>& of, int layers = 0) const = 0;
 
   const Vector& diagonal() const { return diagonal_; }
   int most_entries() const { return most_entries_; }  ///< at least as many as any row has
@@ -43,7 +43,10 @@ class SymmetricMatrix {
   const SparseMatrix& lower() const {
     static const SparseMatrix none;
     if (!content_) return none;
-    if (slices()) std::call_once(content_->once, [&] { content_->lower = slices()->near(std::vector<char>(static_cast<std::size_t>(rows()), 1)); });
+    if (slices()) std::call_once(content_->once, [&] {
+      std::vector<char> all(static_cast<std::size_t>(rows()), 1);
+      content_->lower = slices()->near(all);
+    });
     return content_->lower;
   }
   operator const SparseMatrix&() const { return lower(); }  // NOLINT

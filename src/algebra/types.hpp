@@ -2,6 +2,9 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <algorithm>
+#include <iterator>
+#include <utility>
 #include <vector>
 
 namespace dotyk::algebra {
@@ -42,8 +45,25 @@ using Triplets = std::vector<Eigen::Triplet<double>>;
 
 template <class Matrix = SparseMatrix>
 Matrix from_triplets(Eigen::Index rows, Eigen::Index columns, const Triplets& entries) {
+  constexpr Eigen::Index kFew = 10;  // Eigen's way passes some times over all inner indices
   Matrix matrix(rows, columns);
-  matrix.setFromTriplets(entries.begin(), entries.end());
+  if (matrix.innerSize() < kFew * std::ssize(entries)) {
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    return matrix;
+  }
+  const auto place = [](const auto& e) { return Matrix::IsRowMajor ? std::pair(e.row(), e.col()) : std::pair(e.col(), e.row()); };
+  Triplets sorted = entries;
+  std::ranges::stable_sort(sorted, {}, place);
+  matrix.reserve(std::ssize(sorted));
+  double* last = nullptr;
+  for (auto [outer, at] = std::pair(Eigen::Index{0}, sorted.begin()); outer < matrix.outerSize(); ++outer) {
+    matrix.startVec(outer);
+    for (; at != sorted.end() && place(*at).first == outer; ++at) {
+      if (last && place(at[-1]) == place(*at)) *last += at->value();
+      else last = &(matrix.insertBackByOuterInner(outer, place(*at).second) = at->value());
+    }
+  }
+  matrix.finalize();
   return matrix;
 }
 

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <mutex>
 #include <numeric>
+#include <utility>
 
 #include "base/parallel.hpp"
 #include "multigrid/processes/petsc_session.hpp"
@@ -236,31 +237,48 @@ algebra::StoredMatrix lower_triangle(int size, const Each& each) {
 
 }  // namespace
 
-algebra::StoredMatrix RankSlices::near(const std::vector<char>& of) const {
-  const std::lock_guard lock(only_one());
+RankSlices::Some RankSlices::some(const std::vector<int>& unknowns) const {
   const Ranks& ranks = workers_.ranks();
-  const std::vector<int>& first = numbering_->first(0);
-  std::vector<std::vector<int>> asked(static_cast<std::size_t>(ranks.count()));
-  for (int r = 0; r < ranks.count(); ++r)
-    for (int row = first[r]; row < first[r + 1]; ++row)
-      if (const int i = numbering_->unknown(row); i >= 0 && of[i]) asked[r].push_back(row - first[r]);
-  const std::vector<Rows> rows = ranks.together([&] {
+  Some some{std::vector<std::vector<int>>(static_cast<std::size_t>(ranks.count())), {}};
+  for (const int i : unknowns) {
+    const int row = numbering_->slot()[i], rank = numbering_->rank_of(row);
+    some.asked[rank].push_back(row - numbering_->first(0)[rank]);
+  }
+  for (auto& of_rank : some.asked) std::ranges::sort(of_rank);
+  ranks.together([&] {
     workers_.tell(Task::some);
-    for (int r = 1; r < ranks.count(); ++r) ranks.send(r, asked[r]);
-    std::vector<Rows> all{slice_->some(asked[0])};
-    for (int r = 1; r < ranks.count(); ++r) all.push_back(receive_full(ranks, r));
-    return all;
+    for (int r = 1; r < ranks.count(); ++r) ranks.send(r, some.asked[r]);
+    some.rows.push_back(slice_->some(some.asked[0]));
+    for (int r = 1; r < ranks.count(); ++r) some.rows.push_back(receive_full(ranks, r));
   });
+  return some;
+}
+
+algebra::StoredMatrix RankSlices::near(std::vector<char>& of, int layers) const {
+  const std::lock_guard lock(only_one());
+  std::vector<int> outermost;
+  for (std::size_t i = 0; i < of.size(); ++i)
+    if (of[i]) outermost.push_back(static_cast<int>(i));
+  std::vector<Some> all;
+  for (;; --layers) {
+    all.push_back(some(outermost));
+    if (layers == 0) break;
+    outermost.clear();
+    for (const Rows& rows : all.back().rows)
+      for (const int column : rows.columns)
+        if (const int j = numbering_->unknown(column); j >= 0 && !std::exchange(of[j], 1)) outermost.push_back(j);
+  }
   return lower_triangle(static_cast<int>(diagonal_.size()), [&](int begin, int end, auto&& visit) {
-    for (std::size_t r = 0; r < rows.size(); ++r)
-      for (std::size_t k = 0; k < asked[r].size(); ++k) {
-        const int i = numbering_->unknown(first[r] + asked[r][k]);
-        for (int at = rows[r].starts[k]; at < rows[r].starts[k + 1]; ++at) {
-          const int j = numbering_->unknown(rows[r].columns[at]);
-          if (j < 0 || (j > i && of[j])) continue;  // the latter is told with its own row
-          if (const int column = std::min(i, j); column >= begin && column < end) visit(std::max(i, j), column, rows[r].values[at]);
+    for (const auto& [asked, rows] : all)
+      for (std::size_t r = 0; r < rows.size(); ++r)
+        for (std::size_t k = 0; k < asked[r].size(); ++k) {
+          const int i = numbering_->unknown(numbering_->first(0)[r] + asked[r][k]);
+          for (int at = rows[r].starts[k]; at < rows[r].starts[k + 1]; ++at) {
+            const int j = numbering_->unknown(rows[r].columns[at]);
+            if (j < 0 || (j > i && of[j])) continue;  // the latter is told with its own row
+            if (const int column = std::min(i, j); column >= begin && column < end) visit(std::max(i, j), column, rows[r].values[at]);
+          }
         }
-      }
   });
 }
 

@@ -22,7 +22,7 @@ class RankSlices final : public algebra::SlicedMatrix {
   algebra::Vector times(const Eigen::Ref<const algebra::Vector>& x) const override;
   algebra::LongVector times(const Eigen::Ref<const algebra::LongVector>& x) const override;
   algebra::Vector gross_times(const algebra::Vector& x) const override;
-  algebra::StoredMatrix near(const std::vector<char>& of) const override;
+  algebra::StoredMatrix near(std::vector<char>& of, int layers) const override;
 
   const Workers& workers() const { return workers_; }
   const std::shared_ptr<const Numbering>& numbering() const { return numbering_; }
@@ -33,6 +33,12 @@ class RankSlices final : public algebra::SlicedMatrix {
   std::unique_ptr<Slice> share_out(const Shared& matrix) const;
   std::vector<int> idle_of(int rank) const;
   void take_diagonal();
+  /// Some rows of all ranks.
+  struct Some {
+    std::vector<std::vector<int>> asked;  ///< by rank, counted from its first row
+    std::vector<Rows> rows;               ///< by rank
+  };
+  Some some(const std::vector<int>& unknowns) const;
   template <class... Number>
   std::array<algebra::Vector, sizeof...(Number)> product(Slice::Product how, const Number&... of_unknown) const;
 

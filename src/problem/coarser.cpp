@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "algebra/congruent.hpp"
+#include "base/parallel.hpp"
 
 namespace dotyk::problem {
 
@@ -39,8 +40,10 @@ std::shared_ptr<const SparseRows> with_columns(const SparseRows& functions, cons
   const auto some = std::make_shared<SparseRows>(functions.rows(), std::ranges::count_if(place, [](int p) { return p >= 0; }));
   some->resizeNonZeros(functions.nonZeros());
   std::copy_n(functions.outerIndexPtr(), functions.rows() + 1, some->outerIndexPtr());
-  std::copy_n(functions.valuePtr(), functions.nonZeros(), some->valuePtr());
-  std::transform(functions.innerIndexPtr(), functions.innerIndexPtr() + functions.nonZeros(), some->innerIndexPtr(), [&](int column) { return place[column]; });
+  parallel_parts(functions.nonZeros(), [&](int first, int end) {
+    std::copy(functions.valuePtr() + first, functions.valuePtr() + end, some->valuePtr() + first);
+    std::transform(functions.innerIndexPtr() + first, functions.innerIndexPtr() + end, some->innerIndexPtr() + first, [&](int column) { return place[column]; });
+  });
   return some;
 }
 

@@ -58,10 +58,8 @@ class HeldStep final : public Step {
     lambda_ = constant_, known_ = false;
     const double enough = (problem_.friction.empty() ? kRough : kOfOff * l.off) * of_rows_;
     unbalanced_ = stiffness_.solver().iterates() && tied_.empty() ? std::clamp(enough, least_, roughest_) : least_;
-    if (slips_.empty()) {
-      const Vector left = residual();
-      if (const double sum = left.lpNorm<1>(); sum != 0) approach(left, sum);
-    }
+    if (slips_.empty())
+      if (const double sum = left_of(forces()); sum != 0) approach(sum);
     refine();
     return u_.allFinite() && tie() && tell(lambda, x);
   }
@@ -103,9 +101,16 @@ class HeldStep final : public Step {
   }
 
   /// Solves for the forces left, so far that a share of what refinement aims at remains, and no more than that share of themselves. `sum`: ‖left‖₁.
-  void approach(const Vector& left, double sum) {
+  void approach(double sum) {
     const double aim = std::min(1.0, unbalanced_ * gross_ / sum);
-    move(stiffness_.solve_in_basis(left, std::max(HeldStiffness::kTolerance, kShare * aim)));
+    move(stiffness_.solve_in_basis(forces(), std::max(HeldStiffness::kTolerance, kShare * aim)));
+  }
+  /// ‖·‖₁ where u is not held.
+  double left_of(const Vector& forces) const {
+    double sum = 0;
+    for (Eigen::Index i = 0; i < forces.size(); ++i)
+      if (!held_[i]) sum += std::abs(forces[i]);
+    return sum;
   }
 
   /// What each row does, and u where it is held; elsewhere iterations go on from the last one.
@@ -171,11 +176,10 @@ class HeldStep final : public Step {
     if (!slips_.empty()) return refine_slipping();
     double before = std::numeric_limits<double>::infinity();
     for (int k = 0; k < kMostRefinements && u_.allFinite(); ++k) {
-      const Vector left = residual();
-      const double sum = left.lpNorm<1>();
+      const double sum = left_of(forces());
       if (!(sum > unbalanced_ * gross_) || sum > before / 2) return;
       before = sum;
-      approach(left, sum);
+      approach(sum);
     }
   }
 

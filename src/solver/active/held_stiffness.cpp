@@ -93,7 +93,15 @@ void HeldStiffness::assemble(bool takes_slices) {
   lower_ = basis_.of_signs() ? with_signs(std::move(A), basis_) : std::move(A);
 }
 
-algebra::SymmetricMatrix HeldStiffness::near(const std::vector<char>& of) const { return slices_ ? with_signs(slices_->near(of), basis_) : lower_; }
+algebra::SymmetricMatrix HeldStiffness::near(std::vector<char>& of, int layers) const {
+  if (slices_) return with_signs(slices_->near(of, layers), basis_);
+  for (; layers > 0; --layers) {
+    std::vector<char> wider = of;
+    algebra::each_entry_of(lower(), of, [&](int, int row, int column) { wider[row] = wider[column] = 1; });
+    of = std::move(wider);
+  }
+  return lower_;
+}
 
 /// Of an entry where nothing is held.
 void HeldStiffness::change(int row, int column, double by) {

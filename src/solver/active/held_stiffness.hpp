@@ -65,8 +65,8 @@ class HeldStiffness {
                 Nested* nested = nullptr);
 
   const problem::RowBasis& basis() const { return basis_; }
-  /// A lower triangle that has at least the entries of TᵀKT in rows and columns of flagged unknowns.
-  algebra::SymmetricMatrix near(const std::vector<char>& of) const;
+  /// A lower triangle that has at least the entries of TᵀKT in rows and columns of flagged unknowns. Before, so many layers of neighbours are flagged, too.
+  algebra::SymmetricMatrix near(std::vector<char>& of, int layers) const;
   /// `spring`: s, force per displacement, rows; `held`: one flag an unknown of the basis; `added`: to the matrix, lower triangle, of the unknowns of
   /// rows of one point. False where the matrix is not positive definite.
   bool factor(const algebra::Vector& spring, const std::vector<char>& held, const std::vector<Eigen::Triplet<double>>& added = {});

@@ -30,22 +30,12 @@ std::vector<int> bearing(const Problem& problem, const Vector& lambda) {
   return rows;
 }
 
-/// The unknowns of rows, and of neighbours.
-std::vector<int> unknowns_near(const std::vector<int>& rows, const HeldStiffness& stiffness, int unknowns_of_all) {
-  std::vector<char> near(static_cast<std::size_t>(unknowns_of_all), 0);
+/// Flags of the unknowns of rows.
+std::vector<char> own_unknowns(const std::vector<int>& rows, const HeldStiffness& stiffness, int unknowns_of_all) {
+  std::vector<char> own(static_cast<std::size_t>(unknowns_of_all), 0);
   for (const int r : rows)
-    if (const int own = stiffness.basis().unknown[r]; own >= 0) near[own] = 1;
-  std::vector<char> outermost = near;
-  for (int k = 0; k < kLayers; ++k) {
-    std::vector<char> wider = near;
-    algebra::each_entry_of(stiffness.near(outermost).lower(), outermost, [&](int, int row, int column) { wider[row] = wider[column] = 1; });
-    for (int i = 0; i < unknowns_of_all; ++i) outermost[i] = wider[i] && !near[i];
-    near = std::move(wider);
-  }
-  std::vector<int> unknowns;
-  for (int i = 0; i < unknowns_of_all; ++i)
-    if (near[i]) unknowns.push_back(i);
-  return unknowns;
+    if (const int unknown = stiffness.basis().unknown[r]; unknown >= 0) own[unknown] = 1;
+  return own;
 }
 
 /// Sweeps over the unknowns near rows that bear, in the basis where rows are unknowns.
@@ -53,12 +43,14 @@ class NonlinearSmoothing {
  public:
   /// `bearing`: those rows.
   NonlinearSmoothing(const Problem& problem, const HeldStiffness& stiffness, const problem::State& from, const std::vector<int>& bearing)
-      : problem_(problem), basis_(stiffness.basis()), from_(from), lambda_(from.lambda), unknowns_(unknowns_near(bearing, stiffness, problem.unknowns())), rows_(unknowns_.size()),
-        moved_(Vector::Zero(size())) {
-    std::vector<int> place(static_cast<std::size_t>(problem.unknowns()), -1);
-    std::vector<char> near(place.size(), 0);
-    for (int k = 0; k < size(); ++k) place[unknowns_[k]] = k, near[unknowns_[k]] = 1;
-    take_matrix(stiffness.near(near).lower(), place);
+      : problem_(problem), basis_(stiffness.basis()), from_(from), lambda_(from.lambda) {
+    std::vector<char> near = own_unknowns(bearing, stiffness, problem.unknowns());
+    const algebra::SymmetricMatrix matrix = stiffness.near(near, kLayers);
+    std::vector<int> place(near.size(), -1);
+    for (std::size_t i = 0; i < near.size(); ++i)
+      if (near[i]) place[i] = size(), unknowns_.push_back(static_cast<int>(i));
+    rows_.resize(unknowns_.size()), moved_ = Vector::Zero(size());
+    take_matrix(matrix.lower(), place);
     take_rows(place);
     const Vector jump = problem.B * from.u - problem.c;
     Vector given = lambda_;
