@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/memory.hpp"
 #include "mesh/submesh.hpp"
 
 namespace dotyk::elasticity {
@@ -52,6 +53,7 @@ algebra::StoredMatrix assemble_share(Lists lists) {
   mesh::Mesh mesh;
   mesh.element = static_cast<mesh::Element>(lists.whole[kElement][0]);
   mesh.coordinates.swap(lists.real[kCoordinates]), mesh.cells.swap(lists.whole[kCells]);
+  require_memory(2 * matrix_bytes(mesh), "a rank's share of the stiffness");
   const std::vector<int>& facets = lists.whole[kSpringFacets];
   std::vector<FacetSpring> springs;
   for (std::size_t k = 0; k < facets.size(); k += 2) {

@@ -2,12 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <iterator>
+#include <limits>
 #include <mutex>
 #include <numeric>
 #include <utility>
 
+#include "base/error.hpp"
+#include "base/memory.hpp"
 #include "base/parallel.hpp"
+#include "base/text.hpp"
 #include "multigrid/processes/petsc_session.hpp"
 #include "multigrid/rows/own_rows.hpp"
 
@@ -220,6 +225,10 @@ algebra::StoredMatrix lower_triangle(int size, const Each& each) {
   lower.resize(size, size);
   int* starts = lower.outerIndexPtr();
   each_range([&](int first, int end) { each(first, end, [&](int, int column, double) { ++starts[column + 1]; }); });
+  const auto entries = static_cast<double>(std::accumulate(starts, starts + size + 1, std::int64_t{0}));
+  if (entries > std::numeric_limits<int>::max())
+    throw InputError(text("the stiffness that the ranks have has ", entries, " entries, too many for a method that wants it whole; dotyk.solver.multigrid{} does not"));
+  require_memory(12 * entries, "the stiffness that the ranks have, put together");
   std::partial_sum(starts, starts + size + 1, starts);
   lower.resizeNonZeros(starts[size]);
   int* rows = lower.innerIndexPtr();
