@@ -20,7 +20,8 @@ class SlicedMatrix {
   virtual Vector times(const Eigen::Ref<const Vector>& x) const = 0;
   virtual LongVector times(const Eigen::Ref<const LongVector>& x) const = 0;  ///< in extended precision
   virtual Vector gross_times(const Vector& x) const = 0;                      ///< |A| |x|
-  /// The lower triangle, with the entries in rows and columns of flagged unknowns alone. Before, so many layers of neighbours are flagged, too.
+  /// First flags so many layers of neighbours in `of`. Then gives the lower triangle, with the entries in rows and columns of flagged unknowns alone. Throws
+  /// InputError where memory does not hold it.
   virtual StoredMatrix near(std::vector<char>& of, int layers = 0) const = 0;
 
   const Vector& diagonal() const { return diagonal_; }
@@ -45,7 +46,8 @@ class SymmetricMatrix {
     if (!content_) return none;
     if (slices()) std::call_once(content_->once, [&] {
       std::vector<char> all(static_cast<std::size_t>(rows()), 1);
-      content_->lower = slices()->near(all);
+      StoredMatrix whole = slices()->near(all);
+      content_->lower.swap(whole);
     });
     return content_->lower;
   }

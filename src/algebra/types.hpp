@@ -43,9 +43,10 @@ class StoredMatrix : public SparseMatrix {
 /// Entries of a sparse matrix; those at one place add up.
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
+/// Entries at one place are added in their order.
 template <class Matrix = SparseMatrix>
 Matrix from_triplets(Eigen::Index rows, Eigen::Index columns, const Triplets& entries) {
-  constexpr Eigen::Index kFew = 10;  // Eigen's way passes some times over all inner indices
+  constexpr Eigen::Index kFew = 10;  // Eigen's way goes several times over all inner indices
   Matrix matrix(rows, columns);
   if (matrix.innerSize() < kFew * std::ssize(entries)) {
     matrix.setFromTriplets(entries.begin(), entries.end());

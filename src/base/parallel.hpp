@@ -68,7 +68,7 @@ inline void parallel_ranges(int count, int ranges, const std::function<void(int,
   parallel_for(ranges, [&](int k) { work(k, begin(k), begin(k + 1)); }, ranges);
 }
 
-/// Calls work(first, end) for ranges of so many numbers, on all cores where these are many.
+/// Cuts the numbers 0 … count − 1 into ranges and calls work(first, end) for each, on all cores where there are many numbers.
 template <class Work>
 void parallel_parts(std::ptrdiff_t count, const Work& work) {
   constexpr std::int64_t kFew = 100'000;

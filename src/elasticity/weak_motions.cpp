@@ -119,7 +119,7 @@ struct Motions {
   auto rigid() const { return F.leftCols(frame.count()); }
   auto dilatation() const { return F.rightCols(1); }
 
-  /// UᵀMV, some rows at a time, so that no other matrix of this size is needed.
+  /// UᵀMV, some rows at a time, so that no other matrix of this size is needed. The last digit depends on the number of threads.
   DenseMatrix inner(const Displacements& U, const Displacements& V) const {
     constexpr int kRows = 1000, kFew = 100'000;  // rows for a thread
     const int rows = static_cast<int>(U.rows()), threads = threads_for(rows, kFew);

@@ -3,6 +3,7 @@
 #include <limits>
 #include <memory>
 #include <mutex>
+#include <utility>
 
 #include "base/parallel.hpp"
 #include "base/text.hpp"
@@ -109,9 +110,11 @@ class PetscSolver final : public algebra::SpdSolver {
   Cycle::Solution solve_together(const algebra::Vector& b, double tolerance, algebra::Vector& x, algebra::Vector* left) {
     const Ranks& ranks = workers_.ranks();
     const auto given = [&](int i) { return b[i]; };
+    std::vector<std::vector<double>> parts;  // before the others begin, as they keep cores busy
+    for (int r = 0; r < ranks.count(); ++r) parts.push_back(numbering_->part(r, given));
     workers_.tell(Task::solve);
-    for (int r = 1; r < ranks.count(); ++r) ranks.send(r, std::vector<double>{tolerance, most_}), ranks.send(r, numbering_->part(r, given));
-    Cycle::Solution own = cycle_->solve(numbering_->part(0, given), tolerance, most_, &monitor_);
+    for (int r = 1; r < ranks.count(); ++r) ranks.send(r, std::vector<double>{tolerance, most_}), ranks.send(r, std::exchange(parts[r], {}));
+    Cycle::Solution own = cycle_->solve(parts[0], tolerance, most_, &monitor_);
     std::vector<double> part;
     for (int r = 0; r < ranks.count(); ++r) {
       if (r > 0) ranks.receive(r, part);

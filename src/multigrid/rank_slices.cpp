@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <iterator>
 #include <limits>
 #include <mutex>
@@ -53,7 +52,7 @@ HalfRows assembled(Assemble assemble, Lists lists, const OwnNumbers& own) {
 std::unique_ptr<Slice> told_slice(const Ranks& ranks, HalfRows rows, const std::vector<int>& idle) {
   auto slice = std::make_unique<Slice>(ranks, std::move(rows), idle);
   ranks.send(0, slice->diagonal());
-  ranks.send(0, std::vector<int>{slice->most_entries()});
+  ranks.send(0, std::vector<double>{static_cast<double>(slice->most_entries()), slice->entries()});
   return slice;
 }
 
@@ -165,12 +164,12 @@ std::unique_ptr<Slice> RankSlices::share_out(const Shared& matrix) const {
 void RankSlices::take_diagonal() {
   const Ranks& ranks = workers_.ranks();
   std::vector<double> part = slice_->diagonal();
-  std::vector<int> most{slice_->most_entries()};
+  std::vector<double> counts{static_cast<double>(slice_->most_entries()), slice_->entries()};
   diagonal_.resize(static_cast<Eigen::Index>(numbering_->slot().size()));
   for (int r = 0; r < ranks.count(); ++r) {
-    if (r > 0) ranks.receive(r, part), ranks.receive(r, most);
+    if (r > 0) ranks.receive(r, part), ranks.receive(r, counts);
     numbering_->put(r, part, diagonal_);
-    most_entries_ = std::max(most_entries_, most[0]);
+    most_entries_ = std::max(most_entries_, static_cast<int>(counts[0])), entries_ += counts[1];
   }
 }
 
@@ -180,14 +179,14 @@ std::array<Vector, sizeof...(Number)> RankSlices::product(Slice::Product how, co
   const std::lock_guard lock(only_one());
   const Ranks& ranks = workers_.ranks();
   return ranks.together([&] {
+    std::vector<std::vector<std::vector<double>>> all(static_cast<std::size_t>(ranks.count()));  // before the others begin, as they keep cores busy
+    for (int r = 0; r < ranks.count(); ++r) (all[r].push_back(numbering_->part(r, of_unknown)), ...);
     workers_.tell(Task::multiply);
     for (int r = 1; r < ranks.count(); ++r) {
       ranks.send(r, std::vector<int>{static_cast<int>(how), static_cast<int>(sizeof...(Number))});
-      (ranks.send(r, numbering_->part(r, of_unknown)), ...);
+      for (auto& part : std::exchange(all[r], {})) ranks.send(r, part);
     }
-    std::vector<std::vector<double>> parts;
-    (parts.push_back(numbering_->part(0, of_unknown)), ...);
-    parts = slice_->times(how, parts);
+    std::vector<std::vector<double>> parts = slice_->times(how, all[0]);
     std::array<Vector, sizeof...(Number)> y;
     for (Vector& all : y) all.resize(diagonal_.size());
     for (int r = 0; r < ranks.count(); ++r)
@@ -225,10 +224,6 @@ algebra::StoredMatrix lower_triangle(int size, const Each& each) {
   lower.resize(size, size);
   int* starts = lower.outerIndexPtr();
   each_range([&](int first, int end) { each(first, end, [&](int, int column, double) { ++starts[column + 1]; }); });
-  const auto entries = static_cast<double>(std::accumulate(starts, starts + size + 1, std::int64_t{0}));
-  if (entries > std::numeric_limits<int>::max())
-    throw InputError(text("the stiffness that the ranks have has ", entries, " entries, too many for a method that wants it whole; dotyk.solver.multigrid{} does not"));
-  require_memory(12 * entries, "the stiffness that the ranks have, put together");
   std::partial_sum(starts, starts + size + 1, starts);
   lower.resizeNonZeros(starts[size]);
   int* rows = lower.innerIndexPtr();
@@ -246,21 +241,21 @@ algebra::StoredMatrix lower_triangle(int size, const Each& each) {
 
 }  // namespace
 
-RankSlices::Some RankSlices::some(const std::vector<int>& unknowns) const {
+RankSlices::Asked RankSlices::ask(const std::vector<int>& unknowns) const {
   const Ranks& ranks = workers_.ranks();
-  Some some{std::vector<std::vector<int>>(static_cast<std::size_t>(ranks.count())), {}};
+  Asked asked{std::vector<std::vector<int>>(static_cast<std::size_t>(ranks.count())), {}};
   for (const int i : unknowns) {
     const int row = numbering_->slot()[i], rank = numbering_->rank_of(row);
-    some.asked[rank].push_back(row - numbering_->first(0)[rank]);
+    asked.numbers[rank].push_back(row - numbering_->first(0)[rank]);
   }
-  for (auto& of_rank : some.asked) std::ranges::sort(of_rank);
+  for (auto& of_rank : asked.numbers) std::ranges::sort(of_rank);
   ranks.together([&] {
     workers_.tell(Task::some);
-    for (int r = 1; r < ranks.count(); ++r) ranks.send(r, some.asked[r]);
-    some.rows.push_back(slice_->some(some.asked[0]));
-    for (int r = 1; r < ranks.count(); ++r) some.rows.push_back(receive_full(ranks, r));
+    for (int r = 1; r < ranks.count(); ++r) ranks.send(r, asked.numbers[r]);
+    asked.rows.push_back(slice_->some(asked.numbers[0]));
+    for (int r = 1; r < ranks.count(); ++r) asked.rows.push_back(receive_full(ranks, r));
   });
-  return some;
+  return asked;
 }
 
 algebra::StoredMatrix RankSlices::near(std::vector<char>& of, int layers) const {
@@ -268,9 +263,15 @@ algebra::StoredMatrix RankSlices::near(std::vector<char>& of, int layers) const 
   std::vector<int> outermost;
   for (std::size_t i = 0; i < of.size(); ++i)
     if (of[i]) outermost.push_back(static_cast<int>(i));
-  std::vector<Some> all;
+  if (outermost.size() == of.size()) {
+    if (entries_ > std::numeric_limits<int>::max())
+      throw InputError(text("the stiffness has ", entries_, " entries, too many to be put together from those of ", workers_.ranks().count(),
+                            " ranks; dotyk.solver.multigrid{} does without"));
+    require_memory(18 * entries_, "the stiffness, put together from those of all ranks,");  // all entries, and 12 bytes for each of half of them
+  }
+  std::vector<Asked> all;
   for (;; --layers) {
-    all.push_back(some(outermost));
+    all.push_back(ask(outermost));
     if (layers == 0) break;
     outermost.clear();
     for (const Rows& rows : all.back().rows)
@@ -278,10 +279,10 @@ algebra::StoredMatrix RankSlices::near(std::vector<char>& of, int layers) const 
         if (const int j = numbering_->unknown(column); j >= 0 && !std::exchange(of[j], 1)) outermost.push_back(j);
   }
   return lower_triangle(static_cast<int>(diagonal_.size()), [&](int begin, int end, auto&& visit) {
-    for (const auto& [asked, rows] : all)
+    for (const auto& [numbers, rows] : all)
       for (std::size_t r = 0; r < rows.size(); ++r)
-        for (std::size_t k = 0; k < asked[r].size(); ++k) {
-          const int i = numbering_->unknown(numbering_->first(0)[r] + asked[r][k]);
+        for (std::size_t k = 0; k < numbers[r].size(); ++k) {
+          const int i = numbering_->unknown(numbering_->first(0)[r] + numbers[r][k]);
           for (int at = rows[r].starts[k]; at < rows[r].starts[k + 1]; ++at) {
             const int j = numbering_->unknown(rows[r].columns[at]);
             if (j < 0 || (j > i && of[j])) continue;  // the latter is told with its own row

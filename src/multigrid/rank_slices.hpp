@@ -34,17 +34,18 @@ class RankSlices final : public algebra::SlicedMatrix {
   std::vector<int> idle_of(int rank) const;
   void take_diagonal();
   /// Some rows of all ranks.
-  struct Some {
-    std::vector<std::vector<int>> asked;  ///< by rank, counted from its first row
-    std::vector<Rows> rows;               ///< by rank
+  struct Asked {
+    std::vector<std::vector<int>> numbers;  ///< by rank, counted from its first row
+    std::vector<Rows> rows;                 ///< by rank
   };
-  Some some(const std::vector<int>& unknowns) const;
+  Asked ask(const std::vector<int>& unknowns) const;
   template <class... Number>
   std::array<algebra::Vector, sizeof...(Number)> product(Slice::Product how, const Number&... of_unknown) const;
 
   Workers workers_;
   std::shared_ptr<const Numbering> numbering_;
   std::unique_ptr<Slice> slice_;
+  double entries_ = 0;
   bool made_ = false;  ///< to its end: the other ranks have their slices
 };
 

@@ -114,7 +114,8 @@ void take_stiffness(Problem& problem, algebra::SymmetricMatrix all) {
 
 DenseMatrix at_coarse(const SparseRows& functions, const DenseMatrix& values) {
   DenseMatrix out = DenseMatrix::Zero(functions.cols(), values.cols());
-  for (int i = 0; i < functions.rows() && values.cols() > 0; ++i)
+  if (values.cols() == 0) return out;
+  for (int i = 0; i < functions.rows(); ++i)
     if (const int column = same(functions, i); column >= 0) out.row(column) = values.row(i);
   return out;
 }
@@ -152,12 +153,12 @@ std::vector<SparseRows> coarse_functions(const Problem& problem) {
 }
 
 Coarser coarser(const Problem& problem, std::vector<SparseRows> functions, algebra::SymmetricMatrix stiffness) {
-  if (functions.empty()) throw std::logic_error("coarser: no coarser meshes are known");
-  const int levels = static_cast<int>(functions.size());
+  const int levels = coarser_meshes(problem);
+  if (levels == 0) throw std::logic_error("coarser: no coarser meshes are known");
   Coarser out;
   algebra::Triplets entries;
   for (const Block& fine : problem.blocks) {
-    CoarserBlock coarse = coarser(fine, problem.blocks.size() == 1 ? std::move(functions) : fine.coarse.functions(levels));
+    CoarserBlock coarse = coarser(fine, problem.blocks.size() == 1 && !functions.empty() ? std::move(functions) : fine.coarse.functions(levels));
     coarse.block.first = out.problem.unknowns();
     const SparseRows B = problem.rows_of(fine) * *coarse.functions;
     for (int r = 0; r < B.rows(); ++r)

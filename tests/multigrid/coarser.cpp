@@ -124,4 +124,50 @@ TEST_CASE("what slices tell is what their lower triangle says") {
     CHECK(std::abs(near.coeff(row, column) - lower.valuePtr()[k]) <= 1e-15 * std::abs(lower.valuePtr()[k]));  // PᵀKP is symmetric up to rounding
   });
   CHECK(near.nonZeros() == count);
+  std::vector<char> wide(of.size(), 0), told = wide;
+  wide[0] = told[0] = 1;
+  for (int layer = 0; layer < 2; ++layer) {
+    std::vector<char> wider = wide;
+    algebra::each_entry_of(lower, wide, [&](int, int row, int column) { wider[row] = wider[column] = 1; });
+    wide = wider;
+  }
+  A.slices()->near(told, 2);
+  CHECK(told == wide);
+}
+
+TEST_CASE("a slice keeps its numbers, whatever solvers make of its matrix") {
+  if (test::not_built()) return;
+  Nested nested;
+  algebra::SymmetricMatrix A;
+  const auto finer = nested.solver(&A);
+  const algebra::SparseMatrix& lower = A.lower();
+  const auto size = static_cast<int>(A.rows());
+  std::vector<int> node;
+  for (int i = 0; i < size; ++i) node.push_back(i / 3);
+  const auto make = [&] {
+    multigrid::Matrix matrix{lower, node, [&] { return algebra::DenseMatrix(size, 0); }};
+    matrix.slices = A.slices();
+    return multigrid::make_solver(matrix, nested.monitor);
+  };
+  Vector x(size);
+  for (int i = 0; i < size; ++i) x[i] = std::sin(1.0 + i);
+  const Vector before = A.times(x);
+  const std::vector<char> held(static_cast<std::size_t>(size), 0);
+  const auto check = [&](algebra::SpdSolver& solver, const algebra::Triplets& changed) {
+    REQUIRE(solver.set(changed, held));
+    algebra::SparseMatrix now = lower;
+    for (const auto& entry : changed) now.coeffRef(entry.row(), entry.col()) = entry.value();
+    const Vector solution = solver.solve(algebra::symmetric_product(now, x), 1e-12, nullptr);
+    CHECK((solution - x).norm() <= 1e-8 * x.norm());  // the condition, below 2200, times the tolerance
+    CHECK(A.times(x) == before);
+  };
+  auto first = make();
+  const auto second = make();  // has a copy
+  const double d = A.diagonal(0);
+  check(*first, {{0, 0, 2 * d}}), check(*second, {{0, 0, 3 * d}, {1, 1, 2 * A.diagonal(1)}});
+  check(*first, {{0, 0, d}, {4, 4, 2 * A.diagonal(4)}});
+  first.reset();
+  CHECK(A.times(x) == before);
+  const auto third = make();
+  check(*third, {});
 }

@@ -219,7 +219,8 @@ bool Hierarchy::take(const Change& change) {
     if (!number) throw std::runtime_error("multigrid: the matrix has another pattern than the one that the solver was made for");
     if (change.rows[e] == change.columns[e] && !(change.values[e] > 0)) positive = false;
     if (*number == change.values[e]) continue;
-    piece_.lent ? piece_.lent->change(*number, change.values[e]) : void(*number = change.values[e]);
+    if (piece_.lent) piece_.lent->change(*number, change.values[e]);
+    else *number = change.values[e];
     pending_[0][row] = 1;
     if (A.has(change.columns[e])) pending_[0][change.columns[e] - A.first_row()] = 1;
   }

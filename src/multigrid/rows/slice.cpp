@@ -101,6 +101,11 @@ int Slice::most_entries() const {
   return most;
 }
 
+double Slice::entries() const {
+  const HalfRows& rows = matrix_->now().stored();
+  return static_cast<double>(2 * rows.below.size() + rows.diagonal.size() + rows.other.size());
+}
+
 std::vector<std::vector<double>> Slice::times(Product how, const std::vector<std::vector<double>>& x) {
   return matrix_->as_before([&](HalfMatrix& A) { return product(A, how, x); });
 }

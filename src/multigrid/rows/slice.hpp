@@ -1,4 +1,4 @@
-// One rank's rows of a matrix that stays as it is.
+// One rank's rows of a matrix that stays as it is. Functions that read a slice must not run at the same time: while a solver has its matrix, they exchange numbers.
 #pragma once
 
 #include <memory>
@@ -14,11 +14,14 @@ namespace dotyk::multigrid {
 class LentMatrix {
  public:
   explicit LentMatrix(HalfMatrix matrix) : matrix_(std::move(matrix)) {}
+  LentMatrix(const LentMatrix&) = delete;
+  LentMatrix& operator=(const LentMatrix&) = delete;
 
   HalfMatrix& now() { return matrix_; }  ///< as the solver has it
   void change(double& number, double to) {
-    before_.try_emplace(&number, number);
+    const auto [at, first] = before_.try_emplace(&number, number);
     number = to;
+    if (to == at->second) before_.erase(at);
   }
   /// Calls work(matrix), with the slice's numbers.
   template <class Work>
@@ -50,13 +53,15 @@ class Slice {
   HalfRows rows() const {
     return matrix_->as_before([](HalfMatrix& A) { return A.stored(); });
   }
-  /// For a solver to change, until nothing points to it any more; null where another solver has it.
+  /// For a solver, which may change it; when the last pointer goes, the slice's numbers are back. Null where another solver has it, on all ranks alike, since
+  /// solvers come and go in one order.
   std::shared_ptr<LentMatrix> lend() const {
     if (matrix_.use_count() > 1) return nullptr;
     return {matrix_.get(), [lent = matrix_](LentMatrix*) { lent->give_back(); }};
   }
   std::vector<double> diagonal() const;
   int most_entries() const;  ///< as in algebra::SlicedMatrix
+  double entries() const;    ///< of all own rows
   /// Some own rows, counted from the rank's first. Columns: counted over all ranks, idle ones among them.
   Rows some(const std::vector<int>& rows) const {
     return matrix_->as_before([&](HalfMatrix& A) { return A.full(rows); });

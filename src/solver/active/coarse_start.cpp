@@ -31,8 +31,7 @@ CoarseStart coarse_start(const Problem& problem, const Pdas& settings, Monitor& 
   CoarseStart start;
   Stopwatch watch;
   monitor.phase("ordering");
-  std::vector<algebra::SparseRows> functions = problem::coarse_functions(problem);
-  Nested nested{functions};
+  Nested nested;
   const auto rigid = [&] {
     const algebra::StopFactoring stop(monitor);
     return problem::rigid_motions(problem);
@@ -40,7 +39,7 @@ CoarseStart coarse_start(const Problem& problem, const Pdas& settings, Monitor& 
   start.stiffness = std::make_shared<HeldStiffness>(problem, rigid, settings.linear_or_factor(), monitor, &nested);
   start.ordering = watch.lap();
   monitor.phase("solving on coarser meshes");
-  problem::Coarser coarse = problem::coarser(problem, std::move(functions), std::move(nested.stiffness));
+  problem::Coarser coarse = problem::coarser(problem, std::move(nested.functions), std::move(nested.stiffness));
   const CoarseRows rows(coarse.problem, coarse.kept);
   if (rows.count() == 0) return start;
   const Problem part = rows.restricted();

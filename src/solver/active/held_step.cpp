@@ -41,7 +41,6 @@ class HeldStep final : public Step {
   HeldStep(const Problem& problem, HeldStiffness& stiffness, const Vector& rho, double tol)
       : problem_(problem), stiffness_(stiffness), rho_(rho), least_(std::max(kUnbalanced, stiffness.solver().iterates() ? kOfTolerance * tol : 0)), own_(problem.row_stiffness()),
         basis_(stiffness.basis()), T_(basis_.T.cast<long double>()),
-        rows_(basis_.of_signs() ? LongRows(basis_.times(problem.B).cast<long double>()) : LongRows(problem.B.cast<long double>() * T_)),
         f_(problem.load()), of_loads_(f_.lpNorm<1>()), u_(LongVector::Zero(problem.unknowns())), before_(u_) {
     for (const problem::FrictionGroup& group : problem.friction)
       for (int r = group.first; r < group.row(group.points()); ++r)
@@ -76,7 +75,7 @@ class HeldStep final : public Step {
   Vector recover() override { return u_.cast<double>(); }
 
  private:
-  /// How exact elastic_ is: as a product in double precision, or in extended.
+  /// How exact elastic_ is: a product in double precision, or one in extended precision that is rounded to double at the end.
   enum class Known { no, roughly, precisely };
 
   void move(const Vector& by) { add(by), forget(); }
@@ -100,7 +99,7 @@ class HeldStep final : public Step {
     resist(by.resistance);
   }
 
-  /// Solves for the forces left, so far that a share of what refinement aims at remains, and no more than that share of themselves. `sum`: ‖left‖₁.
+  /// Solves for the forces left, so far that a share of what refinement aims at remains, and no more than that share of themselves. `sum`: left_of(forces()).
   void approach(double sum) {
     const double aim = std::min(1.0, unbalanced_ * gross_ / sum);
     move(stiffness_.solve_in_basis(forces(), std::max(HeldStiffness::kTolerance, kShare * aim)));
@@ -229,7 +228,7 @@ class HeldStep final : public Step {
     for (int r = 0; r < problem_.rows(); ++r) {
       const long double multiplier = lambda_[r] + spring_[r] * gap(r);
       if (multiplier == 0) continue;
-      for (LongRows::InnerIterator it(rows_, r); it; ++it) left[it.col()] -= static_cast<double>(it.value() * multiplier);
+      for (SparseRows::InnerIterator it(stiffness_.rows(), r); it; ++it) left[it.col()] -= static_cast<double>(it.value() * multiplier);
       gross_ += problem_.B.row(r).cwiseAbs().sum() * static_cast<double>(std::abs(multiplier));
     }
     const Vector without = slips_.empty() ? Vector() : left;
@@ -245,11 +244,14 @@ class HeldStep final : public Step {
   /// By a product, where elastic_ is not known as exactly.
   void know_elastic(Known how) {
     if (elastic_known_ >= how) return;
+    elastic_known_ = Known::no;
+    if (how == Known::roughly) elastic_ = basis_.forces(f_ - problem::rough_stiffness_times(problem_, u_.cast<double>()));
+    else {
+      const LongVector internal = problem::precise_stiffness_times(problem_, u_);
+      if (basis_.of_signs()) elastic_ = basis_.forces((f_.cast<long double>() - internal).cast<double>());
+      else elastic_ = (T_.transpose() * LongVector(f_.cast<long double>() - internal)).cast<double>();
+    }
     elastic_known_ = how;
-    if (how == Known::roughly) return void(elastic_ = basis_.forces(f_ - problem::rough_stiffness_times(problem_, u_.cast<double>())));
-    const LongVector internal = problem::precise_stiffness_times(problem_, u_);
-    if (basis_.of_signs()) elastic_ = basis_.forces((f_.cast<long double>() - internal).cast<double>());
-    else elastic_ = (T_.transpose() * LongVector(f_.cast<long double>() - internal)).cast<double>();
   }
 
   /// Bu − t of a row.
@@ -262,7 +264,7 @@ class HeldStep final : public Step {
   /// λ of tied rows so that Bu = t there. False where they contradict each other.
   bool tie() {
     for (int round = 0; round < kMostRounds && off(tied_gap()) > kAim && u_.allFinite(); ++round)
-      approach_ties(), move(stiffness_.solve_in_basis(residual()).u);
+      approach_ties(), move(stiffness_.solve_in_basis(forces()).u);
     return off(tied_gap()) <= kOff;
   }
 
@@ -322,10 +324,8 @@ class HeldStep final : public Step {
   const double least_;   ///< the least value that unbalanced_ may take
   const Vector own_;
   using LongMatrix = Eigen::SparseMatrix<long double>;
-  using LongRows = Eigen::SparseMatrix<long double, Eigen::RowMajor>;
   const problem::RowBasis& basis_;
   const LongMatrix T_;   ///< its T; empty where that is
-  const LongRows rows_;  ///< B T
   const Vector f_;
   const double of_loads_;  ///< ‖f‖₁
   Vector constant_, spring_, target_;  ///< rows: λ of those that are not active; s and t of λ = s(Bu − t), and Bu of rigid ones

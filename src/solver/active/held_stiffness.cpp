@@ -211,12 +211,12 @@ HeldStiffness::Displaced HeldStiffness::solve_in_basis(Vector forces, double tol
   if (solver_->iterates() && !solution.allFinite() && forces.allFinite())
     throw SlowIterations(text(solver_->method(), ": no solution of a linear system within the iterations allowed, as with a nearly incompressible material, "
                           "stretched cells or great contrasts of stiffness; dotyk.solver.pdas{ linear = \"factor\" } does without iterations"));
-  if (left.size() == 0) forces.resize(0);
-  else {
+  Vector resisting;
+  if (left.size() > 0) {
     parallel_parts(forces.size(), [&](int first, int end) { forces.segment(first, end - first) -= left.segment(first, end - first); });
-    forces = resistance(solution, std::move(forces));
+    resisting = resistance(solution, std::move(forces));
   }
-  return {problem::least(unnoticed_, basis_.displacements(std::move(solution))), std::move(forces)};
+  return {problem::least(unnoticed_, basis_.displacements(std::move(solution))), std::move(resisting)};
 }
 
 namespace {
@@ -283,9 +283,7 @@ MakeSpdSolver incomplete_factor() {
 MakeSpdSolver multigrid(Levels levels, double most_iterations) {
   const auto make = [levels, most_iterations](const SpdSystem& s) -> std::unique_ptr<algebra::SpdSolver> {
     const std::vector<int> nodes = problem::nodes(s.problem);
-    const bool meshes = levels == Levels::meshes, told = meshes && s.nested;
-    const auto found = meshes && !told ? problem::coarse_functions(s.problem) : std::vector<SparseRows>();
-    const std::vector<SparseRows>& coarse = told ? s.nested->functions : found;
+    auto coarse = levels == Levels::meshes ? problem::coarse_functions(s.problem) : std::vector<SparseRows>();
     const bool of_signs = s.basis.of_signs(), other_signs = of_signs && !s.basis.trivial();
     StoredMatrix K;
     if (!of_signs) K = held_slightly(s.problem);
@@ -298,10 +296,11 @@ MakeSpdSolver multigrid(Levels levels, double most_iterations) {
                              }};
     matrix.changed = &changed, matrix.slices = s.slices;
     matrix.most_iterations = most_iterations;
-    if (!coarse.empty()) matrix.coarse = &coarse, matrix.dimension = s.problem.blocks[0].coarse.dimension, matrix.coarser = told ? &s.nested->stiffness : nullptr;
+    if (!coarse.empty()) matrix.coarse = &coarse, matrix.dimension = s.problem.blocks[0].coarse.dimension, matrix.coarser = s.nested ? &s.nested->stiffness : nullptr;
     const SparseMatrix unknowns = of_signs ? SparseMatrix() : s.basis.of_displacements(s.problem);
     if (!of_signs) matrix.displaced = &K, matrix.unknowns = &unknowns;
     auto solver = multigrid::make_solver(matrix, s.monitor);
+    if (s.nested) s.nested->functions = std::move(coarse);
     if (!other_signs) return solver;
     return std::make_unique<SignedSolver>(s.basis.signs, std::move(solver));
   };

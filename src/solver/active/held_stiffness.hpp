@@ -12,10 +12,10 @@
 
 namespace dotyk::solver {
 
-/// What nested iteration shares with a solver by multigrid.
+/// What a solver by multigrid leaves for nested iteration.
 struct Nested {
-  const std::vector<algebra::SparseRows>& functions;  ///< problem::coarse_functions()
-  algebra::SymmetricMatrix stiffness = {};            ///< receives PᵀKP of problem::coarser() where the solver makes it
+  std::vector<algebra::SparseRows> functions;  ///< of problem::coarser(), where the solver has made them
+  algebra::SymmetricMatrix stiffness;          ///< likewise
 };
 
 /// What a linear solver is made from: the first matrix, in the basis where rows are unknowns, and the problem that it belongs to.
@@ -65,7 +65,8 @@ class HeldStiffness {
                 Nested* nested = nullptr);
 
   const problem::RowBasis& basis() const { return basis_; }
-  /// A lower triangle that has at least the entries of TᵀKT in rows and columns of flagged unknowns. Before, so many layers of neighbours are flagged, too.
+  const algebra::SparseRows& rows() const { return rows_; }  ///< B T
+  /// First flags so many layers of neighbours in `of`. Then gives a lower triangle that has at least the entries of TᵀKT in rows and columns of flagged unknowns.
   algebra::SymmetricMatrix near(std::vector<char>& of, int layers) const;
   /// `spring`: s, force per displacement, rows; `held`: one flag an unknown of the basis; `added`: to the matrix, lower triangle, of the unknowns of
   /// rows of one point. False where the matrix is not positive definite.
@@ -116,7 +117,7 @@ class HeldStiffness {
   const problem::Problem& problem_;
   const problem::RowBasis basis_;
   const algebra::SparseMatrix unnoticed_;
-  algebra::SparseRows rows_;        ///< B T
+  algebra::SparseRows rows_;
   algebra::SymmetricMatrix lower_;  ///< K itself where that has the room and T is the identity
   const algebra::SlicedMatrix* slices_ = nullptr;  ///< K, and T is of signs; null: lower() is the whole
   std::vector<int> fixing_;         ///< unknowns that hold motions which no row notices

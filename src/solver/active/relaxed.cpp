@@ -4,8 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "algebra/entries_of.hpp"
-
 namespace dotyk::solver {
 namespace {
 
