@@ -20,8 +20,8 @@ class SlicedMatrix {
   virtual Vector times(const Eigen::Ref<const Vector>& x) const = 0;
   virtual LongVector times(const Eigen::Ref<const LongVector>& x) const = 0;  ///< in extended precision
   virtual Vector gross_times(const Vector& x) const = 0;                      ///< |A| |x|
-  /// First flags so many layers of neighbours in `of`. Then gives the lower triangle, with the entries in rows and columns of flagged unknowns alone. Throws
-  /// InputError where memory does not hold it.
+  /// Flags so many layers of neighbours in `of` as well, and returns the lower triangle with the entries in rows and columns of flagged unknowns alone.
+  /// Throws InputError where there is not enough memory.
   virtual StoredMatrix near(std::vector<char>& of, int layers = 0) const = 0;
 
   const Vector& diagonal() const { return diagonal_; }

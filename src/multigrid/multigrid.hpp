@@ -13,7 +13,7 @@
 
 namespace dotyk::multigrid {
 
-/// What a hierarchy is built from. Nothing of it is kept, but that slices lend the hierarchy their matrix.
+/// What a hierarchy is built from. Of it the hierarchy keeps the matrix of the slices alone, on loan.
 struct Matrix {
   const algebra::SparseMatrix& lower;        ///< lower triangle, compressed, columns sorted, no unknown held; positive definite but for `changed`
   const std::vector<int>& node;              ///< of each unknown, ascending, as in problem::Block::node

@@ -110,7 +110,7 @@ class PetscSolver final : public algebra::SpdSolver {
   Cycle::Solution solve_together(const algebra::Vector& b, double tolerance, algebra::Vector& x, algebra::Vector* left) {
     const Ranks& ranks = workers_.ranks();
     const auto given = [&](int i) { return b[i]; };
-    std::vector<std::vector<double>> parts;  // before the others begin, as they keep cores busy
+    std::vector<std::vector<double>> parts;  // made before the others begin and keep cores busy
     for (int r = 0; r < ranks.count(); ++r) parts.push_back(numbering_->part(r, given));
     workers_.tell(Task::solve);
     for (int r = 1; r < ranks.count(); ++r) ranks.send(r, std::vector<double>{tolerance, most_}), ranks.send(r, std::exchange(parts[r], {}));

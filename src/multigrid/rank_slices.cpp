@@ -179,14 +179,14 @@ std::array<Vector, sizeof...(Number)> RankSlices::product(Slice::Product how, co
   const std::lock_guard lock(only_one());
   const Ranks& ranks = workers_.ranks();
   return ranks.together([&] {
-    std::vector<std::vector<std::vector<double>>> all(static_cast<std::size_t>(ranks.count()));  // before the others begin, as they keep cores busy
-    for (int r = 0; r < ranks.count(); ++r) (all[r].push_back(numbering_->part(r, of_unknown)), ...);
+    std::vector<std::vector<std::vector<double>>> given(static_cast<std::size_t>(ranks.count()));  // made before the others begin and keep cores busy
+    for (int r = 0; r < ranks.count(); ++r) (given[r].push_back(numbering_->part(r, of_unknown)), ...);
     workers_.tell(Task::multiply);
     for (int r = 1; r < ranks.count(); ++r) {
       ranks.send(r, std::vector<int>{static_cast<int>(how), static_cast<int>(sizeof...(Number))});
-      for (auto& part : std::exchange(all[r], {})) ranks.send(r, part);
+      for (auto& part : std::exchange(given[r], {})) ranks.send(r, part);
     }
-    std::vector<std::vector<double>> parts = slice_->times(how, all[0]);
+    std::vector<std::vector<double>> parts = slice_->times(how, given[0]);
     std::array<Vector, sizeof...(Number)> y;
     for (Vector& all : y) all.resize(diagonal_.size());
     for (int r = 0; r < ranks.count(); ++r)

@@ -45,7 +45,7 @@ class RankSlices final : public algebra::SlicedMatrix {
   Workers workers_;
   std::shared_ptr<const Numbering> numbering_;
   std::unique_ptr<Slice> slice_;
-  double entries_ = 0;
+  double entries_ = 0;  ///< of all ranks
   bool made_ = false;  ///< to its end: the other ranks have their slices
 };
 

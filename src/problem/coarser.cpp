@@ -59,7 +59,7 @@ struct CoarserBlock {
   std::shared_ptr<const SparseRows> functions;  ///< the unknowns of the finer block by this one's
 };
 
-/// All but K. `all`: of all coarser meshes.
+/// The block without its K. `all`: the functions of all coarser meshes.
 CoarserBlock coarser(const Block& fine, std::vector<SparseRows> all) {
   const std::vector<int> place = places(all[0]);
   CoarserBlock out{{}, with_columns(all[0], place)};
@@ -158,7 +158,7 @@ Coarser coarser(const Problem& problem, std::vector<SparseRows> functions, algeb
   Coarser out;
   algebra::Triplets entries;
   for (const Block& fine : problem.blocks) {
-    CoarserBlock coarse = coarser(fine, problem.blocks.size() == 1 && !functions.empty() ? std::move(functions) : fine.coarse.functions(levels));
+    CoarserBlock coarse = coarser(fine, functions.empty() ? fine.coarse.functions(levels) : std::move(functions));
     coarse.block.first = out.problem.unknowns();
     const SparseRows B = problem.rows_of(fine) * *coarse.functions;
     for (int r = 0; r < B.rows(); ++r)

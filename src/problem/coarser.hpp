@@ -27,8 +27,8 @@ struct Coarser {
   /// by their densities between those kept.
   State prolonged(const State& state) const;
 };
-/// `functions`: coarse_functions(), used where there is one block; `stiffness`: PᵀKP of all blocks, P the functions of the next coarser meshes without the empty
-/// ones. Both are computed where they are empty. Throws std::logic_error where there are no coarser meshes.
+/// `functions`: coarse_functions() of a problem of one block. `stiffness`: PᵀKP of all blocks, P the functions of the next coarser meshes without the empty
+/// ones. What is empty of the two is computed. Throws std::logic_error where there are no coarser meshes.
 Coarser coarser(const Problem& problem, std::vector<algebra::SparseRows> functions = {}, algebra::SymmetricMatrix stiffness = {});
 
 }  // namespace dotyk::problem

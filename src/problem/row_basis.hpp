@@ -16,10 +16,10 @@ struct RowBasis {
   std::vector<int> unknown;  ///< of every row; -1 where others leave it none: rows that nearly depend on each other, or reach too far
   bool of_signs() const { return T.rows() == 0; }
   bool trivial() const { return of_signs() && signs.size() == 0; }
-  /// T u' and Tᵀ f.
+  /// The displacements T u', and the forces Tᵀ f in this basis.
   algebra::Vector displacements(algebra::Vector u) const { return of_signs() ? with_signs(std::move(u)) : T * u; }
   algebra::Vector forces(algebra::Vector f) const { return of_signs() ? with_signs(std::move(f)) : T.transpose() * f; }
-  /// R T.
+  /// R T: rows that act on displacements, in this basis.
   algebra::SparseRows times(const algebra::SparseRows& R) const;
   /// S = T⁻¹: u' = S u.
   algebra::SparseMatrix of_displacements(const Problem& problem) const;

@@ -1,4 +1,5 @@
-// One rank's rows of a matrix that stays as it is. Functions that read a slice must not run at the same time: while a solver has its matrix, they exchange numbers.
+// One rank's rows of a matrix that stays as it is. While a solver has the matrix on loan, each function of a slice puts the slice's numbers in place and the
+// solver's back: two of them must not run at the same time.
 #pragma once
 
 #include <memory>
@@ -10,7 +11,7 @@
 
 namespace dotyk::multigrid {
 
-/// A matrix that a slice lends to a solver, so that both have one copy: numbers that the solver changes are remembered.
+/// One matrix for a slice and the solver that it lends it to. Where the solver has other numbers, the slice's are remembered.
 class LentMatrix {
  public:
   explicit LentMatrix(HalfMatrix matrix) : matrix_(std::move(matrix)) {}
@@ -23,7 +24,7 @@ class LentMatrix {
     number = to;
     if (to == at->second) before_.erase(at);
   }
-  /// Calls work(matrix), with the slice's numbers.
+  /// Calls work(matrix) with the slice's numbers in place, and puts the solver's back.
   template <class Work>
   auto as_before(const Work& work) {
     struct Exchange {
@@ -53,8 +54,8 @@ class Slice {
   HalfRows rows() const {
     return matrix_->as_before([](HalfMatrix& A) { return A.stored(); });
   }
-  /// For a solver, which may change it; when the last pointer goes, the slice's numbers are back. Null where another solver has it, on all ranks alike, since
-  /// solvers come and go in one order.
+  /// Lends the matrix to a solver, which changes it by change(). When the last pointer is gone, the slice's numbers are restored. Null while another solver has
+  /// the matrix. All ranks give the same answer, because solvers are made and dropped in one order.
   std::shared_ptr<LentMatrix> lend() const {
     if (matrix_.use_count() > 1) return nullptr;
     return {matrix_.get(), [lent = matrix_](LentMatrix*) { lent->give_back(); }};

@@ -99,7 +99,7 @@ class HeldStep final : public Step {
     resist(by.resistance);
   }
 
-  /// Solves for the forces left, so far that a share of what refinement aims at remains, and no more than that share of themselves. `sum`: left_of(forces()).
+  /// Solves for the forces that are left. Of them may remain kShare of what refinement aims at, and at most kShare of themselves. `sum`: left_of(forces()).
   void approach(double sum) {
     const double aim = std::min(1.0, unbalanced_ * gross_ / sum);
     move(stiffness_.solve_in_basis(forces(), std::max(HeldStiffness::kTolerance, kShare * aim)));
@@ -241,7 +241,7 @@ class HeldStep final : public Step {
     return left;
   }
 
-  /// By a product, where elastic_ is not known as exactly.
+  /// Computes elastic_ by a product, unless it is known as exactly already.
   void know_elastic(Known how) {
     if (elastic_known_ >= how) return;
     elastic_known_ = Known::no;

@@ -300,7 +300,7 @@ MakeSpdSolver multigrid(Levels levels, double most_iterations) {
     const SparseMatrix unknowns = of_signs ? SparseMatrix() : s.basis.of_displacements(s.problem);
     if (!of_signs) matrix.displaced = &K, matrix.unknowns = &unknowns;
     auto solver = multigrid::make_solver(matrix, s.monitor);
-    if (s.nested) s.nested->functions = std::move(coarse);
+    if (s.nested && s.problem.blocks.size() == 1) s.nested->functions = std::move(coarse);
     if (!other_signs) return solver;
     return std::make_unique<SignedSolver>(s.basis.signs, std::move(solver));
   };

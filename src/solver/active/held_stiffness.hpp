@@ -14,8 +14,8 @@ namespace dotyk::solver {
 
 /// What a solver by multigrid leaves for nested iteration.
 struct Nested {
-  std::vector<algebra::SparseRows> functions;  ///< of problem::coarser(), where the solver has made them
-  algebra::SymmetricMatrix stiffness;          ///< likewise
+  std::vector<algebra::SparseRows> functions;  ///< for problem::coarser(); empty where there are several blocks, or the solver has made none
+  algebra::SymmetricMatrix stiffness;          ///< for problem::coarser(); empty where the solver has not made it
 };
 
 /// What a linear solver is made from: the first matrix, in the basis where rows are unknowns, and the problem that it belongs to.
@@ -66,7 +66,7 @@ class HeldStiffness {
 
   const problem::RowBasis& basis() const { return basis_; }
   const algebra::SparseRows& rows() const { return rows_; }  ///< B T
-  /// First flags so many layers of neighbours in `of`. Then gives a lower triangle that has at least the entries of TᵀKT in rows and columns of flagged unknowns.
+  /// Flags so many layers of neighbours in `of` as well, and returns a lower triangle that has at least the entries of TᵀKT in rows and columns of flagged unknowns.
   algebra::SymmetricMatrix near(std::vector<char>& of, int layers) const;
   /// `spring`: s, force per displacement, rows; `held`: one flag an unknown of the basis; `added`: to the matrix, lower triangle, of the unknowns of
   /// rows of one point. False where the matrix is not positive definite.
