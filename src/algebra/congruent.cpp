@@ -190,4 +190,43 @@ SparseMatrix lower_sum(const SparseMatrix& A, const SparseMatrix& B) {
 SparseMatrix congruent(const SparseMatrix& lower, const SparseMatrix& P) { return congruent(lower, P, SparseRows(P)); }
 SparseMatrix congruent(const SparseMatrix& lower, const SparseRows& P) { return congruent(lower, SparseMatrix(P), P); }
 
+namespace {
+
+/// The chosen rows (place[row] ≥ 0 is the new number) of the chosen columns; entries in other rows are left out.
+SparseMatrix some_of(const SparseMatrix& from, const std::vector<int>& place, int rows, const std::vector<int>& columns) {
+  SparseMatrix some(rows, static_cast<Eigen::Index>(columns.size()));
+  for (std::size_t J = 0; J < columns.size(); ++J) {
+    some.startVec(static_cast<Eigen::Index>(J));
+    for (SparseMatrix::InnerIterator it(from, columns[J]); it; ++it)
+      if (const int row = place[it.row()]; row >= 0) some.insertBack(row, static_cast<Eigen::Index>(J)) = it.value();
+  }
+  some.finalize();
+  return some;
+}
+
+}  // namespace
+
+StoredMatrix congruent_near(const SparseMatrix& lower, const SparseMatrix& P) {
+  std::vector<int> place(static_cast<std::size_t>(P.rows()), -1), met, columns;
+  for (int j = 0; j < lower.cols(); ++j)
+    for (SparseMatrix::InnerIterator it(lower, j); it; ++it) place[it.row()] = place[j] = 0;
+  for (std::size_t i = 0; i < place.size(); ++i)
+    if (place[i] == 0) place[i] = static_cast<int>(met.size()), met.push_back(static_cast<int>(i));
+  for (int J = 0; J < P.cols(); ++J) {
+    SparseMatrix::InnerIterator it(P, J);
+    while (it && place[it.row()] < 0) ++it;
+    if (it) columns.push_back(J);
+  }
+  const auto count = static_cast<int>(met.size());
+  const SparseMatrix small = congruent(some_of(lower, place, count, met), some_of(P, place, count, columns));
+  StoredMatrix all;
+  all.resize(P.cols(), P.cols());
+  all.resizeNonZeros(small.nonZeros());
+  std::copy_n(small.valuePtr(), small.nonZeros(), all.valuePtr());
+  std::transform(small.innerIndexPtr(), small.innerIndexPtr() + small.nonZeros(), all.innerIndexPtr(), [&](int row) { return columns[row]; });
+  for (std::size_t J = 0; J < columns.size(); ++J) all.outerIndexPtr()[columns[J] + 1] = static_cast<int>(small.col(static_cast<Eigen::Index>(J)).nonZeros());
+  std::partial_sum(all.outerIndexPtr(), all.outerIndexPtr() + P.cols() + 1, all.outerIndexPtr());
+  return all;
+}
+
 }  // namespace dotyk::algebra

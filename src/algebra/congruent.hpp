@@ -11,5 +11,7 @@ SparseMatrix lower_sum(const SparseMatrix& A, const SparseMatrix& B);
 /// PᵀAP, m × m, of a symmetric A, n × n, for P, n × m. `lower` has no entries above the diagonal; nor has the result, whose columns are sorted.
 SparseMatrix congruent(const SparseMatrix& lower, const SparseMatrix& P);
 SparseMatrix congruent(const SparseMatrix& lower, const SparseRows& P);
+/// The same where `lower` has entries in few rows and columns: takes no other rows of P, and time as these.
+StoredMatrix congruent_near(const SparseMatrix& lower, const SparseMatrix& P);
 
 }  // namespace dotyk::algebra

@@ -15,7 +15,7 @@ namespace {
 using algebra::Vector;
 using mesh::Mesh;
 
-/// Adds dense blocks between nodes into a system whose pattern is made first, from the mesh; prescribed components are eliminated.
+/// Adds dense blocks between nodes into a matrix whose pattern is made first, from the mesh; prescribed components are left out.
 class Assembly {
  public:
   Assembly(const Mesh& mesh, const Numbering& numbering)
@@ -23,7 +23,6 @@ class Assembly {
     for (int u = numbering.count() - 1; u >= 0; --u) first_[numbering.node[u]] = u, ++count_[numbering.node[u]];
     find_neighbours(mesh);
     make_pattern();
-    system.f = Vector::Zero(numbering.count());
   }
 
   int threads() const { return threads_; }
@@ -39,7 +38,7 @@ class Assembly {
     while (neighbour_[place] != high) ++place;
     if (free(high) && free(low)) {  // the rows of a column follow one another
       for (int j = 0; j < dim_; ++j) {
-        double* column = system.K.valuePtr() + system.K.outerIndexPtr()[first_[low] + j] + offset_[place] - j;
+        double* column = K.valuePtr() + K.outerIndexPtr()[first_[low] + j] + offset_[place] - j;
         for (int i = a == b ? j : 0; i < dim_; ++i) column[i] += a >= b ? block(i, j) : block(j, i);
       }
       return;
@@ -48,23 +47,17 @@ class Assembly {
       for (int j = 0; j < dim_; ++j) {
         const double k = block(i, j);
         const int r = unknown(a, i), c = unknown(b, j);
-        if (r < 0 || c < 0) {  // f −= K_fp u_p and offset += ½ u_p K_pp u_p
-          if (r >= 0) system.f[r] -= k * prescribed(b, j);
-          if (a != b && c >= 0) system.f[c] -= k * prescribed(a, i);
-          system.offset += (a == b ? 0.5 : 1.0) * prescribed(a, i) * k * prescribed(b, j);
-        } else if (a != b || i >= j) {
-          const int row = std::max(r, c), column = std::min(r, c);
-          const int rank = row - first_[high] - (column - first_[low]);
-          system.K.valuePtr()[system.K.outerIndexPtr()[column] + offset_[place] + rank] += k;
-        }
+        if (r < 0 || c < 0 || (a == b && i < j)) continue;
+        const int row = std::max(r, c), column = std::min(r, c);
+        const int rank = row - first_[high] - (column - first_[low]);
+        K.valuePtr()[K.outerIndexPtr()[column] + offset_[place] + rank] += k;
       }
   }
 
-  System system;
+  algebra::StoredMatrix K;
 
  private:
   int unknown(int node, int i) const { return numbering_.unknown[static_cast<std::size_t>(node) * dim_ + i]; }
-  double prescribed(int node, int i) const { return numbering_.prescribed[static_cast<std::size_t>(node) * dim_ + i]; }
 
   void find_neighbours(const Mesh& mesh) {
     const int nodes = mesh.node_count(), per_cell = mesh::nodes_of(mesh.element);
@@ -100,10 +93,10 @@ class Assembly {
       entries.push_back(entries.back() + static_cast<std::int64_t>(rows) * count_[b] - count_[b] * (count_[b] - 1) / 2);
     }
     if (entries.back() > 2'000'000'000) throw InputError("the stiffness matrix would have more than 2e9 entries; use a coarser mesh");
-    system.K.resize(numbering_.count(), numbering_.count());
-    system.K.resizeNonZeros(static_cast<Eigen::Index>(entries.back()));
-    int *outer = system.K.outerIndexPtr(), *inner = system.K.innerIndexPtr();
-    double* values = system.K.valuePtr();
+    K.resize(numbering_.count(), numbering_.count());
+    K.resizeNonZeros(static_cast<Eigen::Index>(entries.back()));
+    int *outer = K.outerIndexPtr(), *inner = K.innerIndexPtr();
+    double* values = K.valuePtr();
     outer[numbering_.count()] = static_cast<int>(entries.back());
     parallel_ranges(nodes, threads_, [&](int, int first, int end) {
       int at = static_cast<int>(entries[first]);
@@ -138,23 +131,17 @@ void for_each_stiffness(const Mesh& mesh, const MaterialField& material, Wanted&
 }
 
 /// Adds the stiffness of all cells. Each thread fills the columns of its own range of nodes. It takes cells in their order, so that the result does not depend
-/// on the number of threads. Blocks with prescribed components also change f and the offset, which all columns share; one thread adds them at the end.
+/// on the number of threads.
 template <class E>
 void add_stiffness(const Mesh& mesh, const MaterialField& material, Assembly& assembly) {
-  // Adds the blocks for whose nodes mine(low, high) holds. They must be in cells with a node that is `wanted`.
-  const auto add = [&](auto&& wanted, auto&& mine) {
-    for_each_stiffness<E>(mesh, material, wanted, [&](const int* n, const auto& k) {
-      for (int a = 0; a < E::nodes; ++a)
-        for (int b = 0; b <= a; ++b)
-          if (mine(std::min(n[a], n[b]), std::max(n[a], n[b]))) assembly.add(n[a], n[b], [&](int i, int j) { return k[a][b][i][j]; });
-    });
-  };
-  const auto free = [&](int node) { return assembly.free(node); };
   parallel_ranges(mesh.node_count(), assembly.threads(), [&](int, int first, int end) {
     const auto inside = [&](int node) { return node >= first && node < end; };
-    add(inside, [&](int low, int high) { return inside(low) && free(low) && free(high); });
+    for_each_stiffness<E>(mesh, material, inside, [&](const int* n, const auto& k) {
+      for (int a = 0; a < E::nodes; ++a)
+        for (int b = 0; b <= a; ++b)
+          if (inside(std::min(n[a], n[b]))) assembly.add(n[a], n[b], [&](int i, int j) { return k[a][b][i][j]; });
+    });
   });
-  add([&](int node) { return !free(node); }, [&](int low, int high) { return !free(low) || !free(high); });
 }
 
 }  // namespace
@@ -181,13 +168,6 @@ System assemble(const Mesh& mesh, const MaterialField& material,
                 const std::vector<FacetSpring>& springs, const std::vector<double>& force,
                 const Numbering& numbering) {
   Assembly assembly(mesh, numbering);
-  System& system = assembly.system;
-  for (std::size_t k = 0; k < force.size(); ++k) {
-    if (numbering.unknown[k] >= 0)
-      system.f[numbering.unknown[k]] += force[k];
-    else
-      system.offset -= force[k] * numbering.prescribed[k];
-  }
   dispatch(mesh.element, [&]<class E>() {
     add_stiffness<E>(mesh, material, assembly);
   });
@@ -199,7 +179,22 @@ System assemble(const Mesh& mesh, const MaterialField& material,
           assembly.add(mesh.facet_node(spring.facet, a), mesh.facet_node(spring.facet, b),
                        [&](int i, int j) { return i == j ? k[i] * p.shape[a] * p.shape[b] * p.measure : 0.0; });
     });
-  return std::move(system);
+  System system = load(mesh, material, springs, force, numbering);
+  system.K = std::move(assembly.K);
+  return system;
+}
+
+System load(const Mesh& mesh, const MaterialField& material, const std::vector<FacetSpring>& springs, const std::vector<double>& force,
+            const Numbering& numbering) {
+  System system;
+  system.f = Vector::Zero(numbering.count());
+  const std::vector<double> held = internal_force(mesh, material, springs, numbering.prescribed);
+  for (std::size_t k = 0; k < held.size(); ++k) {
+    const double given = force.empty() ? 0 : force[k];
+    if (numbering.unknown[k] >= 0) system.f[numbering.unknown[k]] = given - held[k];
+    else system.offset += numbering.prescribed[k] * (0.5 * held[k] - given);
+  }
+  return system;
 }
 
 algebra::SparseMatrix h1_gram(const Mesh& mesh, const Numbering& numbering, double length) {
@@ -215,7 +210,7 @@ algebra::SparseMatrix h1_gram(const Mesh& mesh, const Numbering& numbering, doub
         }
     });
   });
-  return assembly.system.K.pruned();  // components are not coupled
+  return assembly.K.pruned();  // components are not coupled
 }
 
 SpringRows spring_rows(const mesh::Mesh& mesh, const std::vector<FacetSpring>& springs, const Numbering& numbering) {

@@ -57,6 +57,10 @@ System assemble(const mesh::Mesh& mesh, const MaterialField& material,
                 const std::vector<FacetSpring>& springs, const std::vector<double>& force,
                 const Numbering& numbering);
 
+/// The same without K.
+System load(const mesh::Mesh& mesh, const MaterialField& material, const std::vector<FacetSpring>& springs, const std::vector<double>& force,
+            const Numbering& numbering);
+
 /// Springs as rows: ½ Σ k_q (Sv)_q² of the unknowns v is what assemble() makes of them.
 struct SpringRows {
   algebra::SparseRows S;      ///< one a quadrature point and component with a spring: its displacement there

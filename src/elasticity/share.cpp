@@ -1,6 +1,8 @@
 #include "elasticity/share.hpp"
 
 #include <algorithm>
+#include <iterator>
+#include <utility>
 
 #include "base/memory.hpp"
 #include "mesh/submesh.hpp"
@@ -49,7 +51,22 @@ Share share(const mesh::Mesh& mesh, const MaterialField& material, const std::ve
   return out;
 }
 
-algebra::StoredMatrix assemble_share(Lists lists) {
+Share joined(std::vector<Share> of_bodies) {
+  Share all;
+  std::vector<int> sizes;  // how many lists each body has
+  for (const Share& share : of_bodies) sizes.insert(sizes.end(), {static_cast<int>(share.lists.whole.size()), static_cast<int>(share.lists.real.size())});
+  all.lists.whole.push_back(std::move(sizes));
+  for (Share& share : of_bodies) {
+    std::ranges::move(share.lists.whole, std::back_inserter(all.lists.whole));
+    std::ranges::move(share.lists.real, std::back_inserter(all.lists.real));
+    all.unknowns.insert(all.unknowns.end(), share.unknowns.begin(), share.unknowns.end());
+  }
+  return all;
+}
+
+namespace {
+
+algebra::StoredMatrix assemble_body(Lists lists) {
   mesh::Mesh mesh;
   mesh.element = static_cast<mesh::Element>(lists.whole[kElement][0]);
   mesh.coordinates.swap(lists.real[kCoordinates]), mesh.cells.swap(lists.whole[kCells]);
@@ -66,6 +83,40 @@ algebra::StoredMatrix assemble_share(Lists lists) {
   }
   const std::vector<int>& fixed = lists.whole[kFixed];
   return assemble(mesh, MaterialField(lists), springs, {}, number(mesh, {fixed.begin(), fixed.end()}, std::vector<double>(fixed.size(), 0.0))).K;
+}
+
+/// Of lower triangles that of the matrix with these blocks.
+algebra::StoredMatrix block_diagonal(std::vector<algebra::StoredMatrix> blocks) {
+  if (blocks.size() == 1) return std::move(blocks[0]);
+  Eigen::Index size = 0, entries = 0;
+  for (const auto& block : blocks) size += block.rows(), entries += block.nonZeros();
+  algebra::StoredMatrix all;
+  all.resize(size, size), all.resizeNonZeros(entries);
+  int first = 0, before = 0;
+  for (const auto& block : blocks) {
+    const auto count = static_cast<int>(block.nonZeros());
+    std::transform(block.innerIndexPtr(), block.innerIndexPtr() + count, all.innerIndexPtr() + before, [&](int row) { return first + row; });
+    std::copy_n(block.valuePtr(), count, all.valuePtr() + before);
+    std::transform(block.outerIndexPtr() + 1, block.outerIndexPtr() + block.cols() + 1, all.outerIndexPtr() + first + 1, [&](int end) { return before + end; });
+    first += static_cast<int>(block.cols()), before += count;
+  }
+  return all;
+}
+
+}  // namespace
+
+algebra::StoredMatrix assemble_share(Lists lists) {
+  std::vector<algebra::StoredMatrix> blocks;
+  auto whole = lists.whole.begin() + 1;
+  auto real = lists.real.begin();
+  const std::vector<int> sizes = std::move(lists.whole[0]);
+  for (std::size_t k = 0; k < sizes.size(); k += 2) {
+    Lists body;
+    std::move(whole, whole + sizes[k], std::back_inserter(body.whole)), whole += sizes[k];
+    std::move(real, real + sizes[k + 1], std::back_inserter(body.real)), real += sizes[k + 1];
+    blocks.push_back(assemble_body(std::move(body)));
+  }
+  return block_diagonal(std::move(blocks));
 }
 
 }  // namespace dotyk::elasticity

@@ -8,12 +8,16 @@
 
 namespace dotyk::elasticity {
 
-/// The cells that have a node with a flagged unknown, their material, supports and springs: the lists are for assemble_share(). `own`: a flag for each
-/// unknown of the body.
+/// The cells that have a node with a flagged unknown, their material, supports and springs: what is assembled are the lists of joined(). `own`: a flag for
+/// each unknown of the body.
 Share share(const mesh::Mesh& mesh, const MaterialField& material, const std::vector<FacetSpring>& springs, const Numbering& numbering,
             const std::vector<char>& own);
 
-/// The lower triangle of the stiffness of these cells. In rows and columns of flagged unknowns its entries are those of the body's stiffness.
+/// The shares of several bodies as one.
+Share joined(std::vector<Share> of_bodies);
+
+/// The lower triangle of the stiffness of these cells, from the lists of joined(). In rows and columns of flagged unknowns its entries are those of the bodies'
+/// stiffness.
 algebra::StoredMatrix assemble_share(Lists lists);
 
 }  // namespace dotyk::elasticity

@@ -32,10 +32,15 @@ struct Matrix {
   /// Receives the matrix of the next coarser mesh: PᵀKP, in slices except where several ranks would have too little work, where K is the matrix of displacements, SᵀAS for A = `lower` and S =
   /// `unknowns`, without `changed`, and P the first of `coarse` without its empty columns. It stays as it is where `coarse` is null. Null: nobody asks.
   algebra::SymmetricMatrix* coarser = nullptr;
+  /// Rows of interfaces, of displacements: unknowns that one of them couples stay together where ranks share them out. Null: none.
+  const algebra::SparseRows* rows = nullptr;
   /// Other numbers of some entries, as for set(), with which `lower` is positive definite; null: none.
   const algebra::Triplets* changed = nullptr;
-  /// The matrix as the ranks have it, by make_slices() from the same `node` and `coarse`; of `lower` only the size counts then. Null: `lower` is the matrix.
+  /// The matrix K of displacements as the ranks have it, by make_slices() from the same `node`, `coarse` and `rows`; of `lower` only the size counts then, and
+  /// `displaced` is not needed. Null: `lower` is the matrix.
   const algebra::SlicedMatrix* slices = nullptr;
+  /// Entries of the matrix that are others than K's, as those of rows that have become unknowns. The pattern of K need not have them. Null: none.
+  const algebra::Triplets* beside_slices = nullptr;
   /// solve() gives up when its rate of convergence foretells that twelve digits will take so many more.
   double most_iterations = std::numeric_limits<double>::infinity();
 };

@@ -26,11 +26,12 @@ class PetscSolver final : public algebra::SpdSolver {
     const Pieces pieces(matrix, *numbering_);
     std::shared_ptr<const algebra::SlicedMatrix> coarser;
     ranks.together([&] {
-      std::vector<Change> first(static_cast<std::size_t>(ranks.count()));
-      if (matrix.changed) first = changes(*matrix.changed, {}, {}, *numbering_, ranks.count());
+      const algebra::Triplets none;
+      const auto changes_by = [&](const algebra::Triplets* entries) { return changes(entries ? *entries : none, {}, {}, *numbering_, ranks.count()); };
+      std::vector<Change> beside = changes_by(matrix.beside_slices), first = changes_by(matrix.changed);
       const bool asked = matrix.coarser && geometric_;
       const Workers of_coarser = workers_.next();
-      cycle_ = std::make_unique<Cycle>(ranks, share_out(pieces, asked ? of_coarser.number() : 0, first), first[0]);
+      cycle_ = std::make_unique<Cycle>(ranks, share_out(pieces, asked ? of_coarser.number() : 0, beside, first), beside[0], first[0]);
       if (asked)
         coarser = std::make_shared<const RankSlices>(of_coarser, Numbering(*numbering_, matrix.coarse->front(), matrix.dimension), cycle_->take_coarser());
     });
@@ -87,9 +88,9 @@ class PetscSolver final : public algebra::SpdSolver {
   }
 
  private:
-  /// Sends each other rank its piece and its first changes; returns the piece of rank 0. `coarser`: as in Piece. Pieces are made in parallel, as many at a time as there are cores.
+  /// Sends each other rank its piece, what is beside the slices, and its first changes; returns the piece of rank 0. `coarser`: as in Piece. Pieces are made in parallel, as many at a time as there are cores.
   /// The first are made before the other ranks are told to begin, because a rank keeps a core busy while it waits for its piece.
-  Piece share_out(const Pieces& pieces, int coarser, std::vector<Change>& first) const {
+  Piece share_out(const Pieces& pieces, int coarser, std::vector<Change>& beside, std::vector<Change>& first) const {
     const Ranks& ranks = workers_.ranks();
     Piece own;
     for (int from = 0; from < ranks.count();) {
@@ -99,7 +100,7 @@ class PetscSolver final : public algebra::SpdSolver {
       for (Piece& piece : some) {
         piece.slices = slices_ ? slices_->workers().number() : 0, piece.coarser = coarser;
         if (from == 0) own = std::move(piece);
-        else send(ranks, from, piece), send(ranks, from, first[from]);
+        else send(ranks, from, piece), send(ranks, from, beside[from]), send(ranks, from, first[from]);
         piece = {}, ++from;
       }
     }

@@ -95,7 +95,7 @@ namespace {
 Numbering numbering_of(const Shared& shared, int ranks) {
   const algebra::SparseMatrix none;
   Matrix matrix{none, shared.node, {}};
-  matrix.coarse = &shared.coarse, matrix.dimension = shared.dimension;
+  matrix.coarse = &shared.coarse, matrix.dimension = shared.dimension, matrix.rows = &shared.rows;
   return Numbering(matrix, ranks);
 }
 

@@ -18,6 +18,7 @@ struct Shared {
   const std::vector<int>& node;                     ///< of each unknown, ascending, as in Matrix
   const std::vector<algebra::SparseRows>& coarse;   ///< as in Matrix
   int dimension;                                    ///< as in Matrix
+  const algebra::SparseRows& rows;                  ///< as in Matrix
   /// A share whose matrix has the right entries in rows of the flagged unknowns. Several threads call it.
   std::function<Share(const std::vector<char>& own)> share;
   Assemble assemble;                                ///< as the other ranks have it from work_for_rank_0()

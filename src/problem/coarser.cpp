@@ -106,6 +106,7 @@ std::vector<std::vector<int>> kinds(const Problem& problem) {
 
 /// The part of each block.
 void take_stiffness(Problem& problem, algebra::SymmetricMatrix all) {
+  if (const auto slices = all.shared_slices()) return take_slices(problem, slices);
   if (problem.blocks.size() == 1) return void(problem.blocks[0].K = std::move(all));
   for (Block& block : problem.blocks) block.K = SparseMatrix(all.lower().block(block.first, block.first, block.size(), block.size()));
 }

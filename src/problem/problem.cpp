@@ -125,6 +125,22 @@ bool prescribes(const RowGroup& group) {
   return true;
 }
 
+void take_slices(Problem& problem, const std::shared_ptr<const algebra::SlicedMatrix>& slices) {
+  if (problem.blocks.size() == 1) return void(problem.blocks[0].K = slices);
+  for (Block& block : problem.blocks) block.K = algebra::SymmetricMatrix(std::make_shared<const algebra::BlockOfSlices>(slices, block.first, block.size()));
+}
+
+const algebra::SlicedMatrix* slices(const Problem& problem) {
+  if (problem.blocks.size() == 1) return problem.blocks[0].K.slices();
+  const algebra::SlicedMatrix* all = nullptr;
+  for (const Block& block : problem.blocks) {
+    const auto* part = dynamic_cast<const algebra::BlockOfSlices*>(block.K.slices());
+    if (!part || part->first() != block.first || (all && all != &part->whole())) return nullptr;
+    all = &part->whole();
+  }
+  return all;
+}
+
 SparseMatrix lower_stiffness(const Problem& problem) {
   if (problem.blocks.size() == 1) return problem.blocks.front().K;
   Eigen::Index entries = 0;
@@ -155,6 +171,7 @@ namespace {
 template <class Numbers>
 Numbers times(const Problem& problem, const Numbers& u) {
   if (problem.blocks.size() == 1) return problem.blocks[0].K.times(u);
+  if (const auto* all = slices(problem)) return all->times(u);
   Numbers result(problem.unknowns());
   for (const Block& block : problem.blocks)
     result.segment(block.first, block.size()) = block.K.times(Eigen::Map<const Numbers>(u.data() + block.first, block.size()));

@@ -121,6 +121,11 @@ struct State {
   algebra::Vector lambda;  ///< rows
 };
 
+/// Gives each block its part of a stiffness of all of them that is in slices.
+void take_slices(Problem& problem, const std::shared_ptr<const algebra::SlicedMatrix>& slices);
+/// That stiffness; null where not all blocks have their part of one.
+const algebra::SlicedMatrix* slices(const Problem& problem);
+
 /// The lower triangle of the stiffness of all blocks.
 algebra::SparseMatrix lower_stiffness(const Problem& problem);
 /// The node of each unknown, ascending; blocks share none.

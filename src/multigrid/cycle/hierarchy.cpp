@@ -96,6 +96,24 @@ void attach_near_kernel(Mat finest, const std::vector<double>& modes, int count)
   check(MatSetNearNullSpace(finest, space));
 }
 
+OwnedMat whole(const HalfMatrix& of) {
+  OwnedMat matrix = copied(of.ranks(), of.full(), of.rows());
+  check(MatSetBlockSize(matrix, of.block()));
+  return matrix;
+}
+
+/// The stiffness of displacements, definite also where nothing holds a body.
+OwnedMat held_slightly(const HalfMatrix& of) {
+  constexpr double kSlightly = 1e-8;
+  OwnedMat matrix = whole(of);
+  OwnedVec diagonal;
+  check(MatCreateVecs(matrix, diagonal.put(), nullptr));
+  check(MatGetDiagonal(matrix, diagonal));
+  check(VecScale(diagonal, kSlightly));
+  check(MatDiagonalSet(matrix, diagonal, ADD_VALUES));
+  return matrix;
+}
+
 /// S P, with the blocks of P.
 OwnedMat product(Mat S, Mat P) {
   OwnedMat m;
@@ -108,34 +126,39 @@ OwnedMat product(Mat S, Mat P) {
 
 }  // namespace
 
-Hierarchy::Hierarchy(const Ranks& ranks, Piece piece, const Change& first) : ranks_(ranks), piece_(std::move(piece)) {
+Hierarchy::Hierarchy(const Ranks& ranks, Piece piece, const Change& beside, const Change& first) : ranks_(ranks), piece_(std::move(piece)) {
   empty_.assign(static_cast<std::size_t>(piece_.own[0]), 0);
   if (piece_.lent) matrices_.emplace_back(piece_.lent, &piece_.lent->now());
   else add_level(HalfMatrix(ranks_, std::move(piece_.matrix)));
   pending_.emplace_back(empty_.size(), 1);
-  coarsen(first);
+  make_room_for(beside);
+  coarsen(beside, first);
 }
 
 OwnedMat Hierarchy::oblong(Rows& rows, int own_columns, std::array<int, 2> blocks) {
   return matrix_of(ranks_, rows, others_.emplace_back(), own_columns, blocks);
 }
 
-void Hierarchy::coarsen(const Change& first) {
+void Hierarchy::coarsen(const Change& beside, const Change& first) {
   const bool same = piece_.unknowns.columns.empty();
   OwnedMat S;
   if (!ranks_.all(same)) S = oblong(piece_.unknowns, piece_.own[0], {piece_.block, piece_.block});
   if (!piece_.functions.empty()) {
+    take(beside);
     take_functions(S);
     if (piece_.coarser) compute_coarser();
     take(first);
     if (aggregates_follow(ranks_.sum(piece_.own.back()), ranks_.sum(piece_.own[0]))) {
       fill_coarse();
-      take_aggregates(*matrices_.back());
+      take_aggregates(whole(*matrices_.back()));
     }
+  } else if (S) {
+    take_aggregates(piece_.slices ? held_slightly(matrix(0)) : held_slightly(HalfMatrix(ranks_, std::move(piece_.displaced))));
+    take(beside), take(first);
+    take_unknowns(S);
   } else {
-    take(first);
-    if (S) take_aggregates(HalfMatrix(ranks_, std::move(piece_.displaced))), take_unknowns(S);
-    else take_aggregates(matrix(0));
+    take(beside), take(first);
+    take_aggregates(whole(matrix(0)));
   }
   S = OwnedMat();
   piece_.unknowns = Rows(), piece_.modes = {};
@@ -164,9 +187,7 @@ void Hierarchy::compute_coarser() {
   make_definite(matrix(1), computed);
 }
 
-void Hierarchy::take_aggregates(const HalfMatrix& of) {
-  const OwnedMat finest = copied(ranks_, of.full(), of.rows());
-  check(MatSetBlockSize(finest, of.block()));
+void Hierarchy::take_aggregates(OwnedMat finest) {
   check(MatSetOption(finest, MAT_SPD, PETSC_TRUE));
   attach_near_kernel(finest, piece_.modes, piece_.motions);
   const OwnedPc pc = aggregate(finest);
@@ -210,20 +231,30 @@ void Hierarchy::truncate(const std::vector<int>& held) {
   empty_ = empty;
 }
 
+void Hierarchy::make_room_for(const Change& change) {
+  HalfMatrix& A = matrix(0);
+  std::vector<std::array<int, 2>> missing;
+  for (std::size_t e = 0; e < change.values.size(); ++e)
+    if (!A.find(change.rows[e] - A.first_row(), change.columns[e])) missing.push_back({change.rows[e] / A.block(), change.columns[e] / A.block()});
+  if (!ranks_.all(missing.empty())) A = HalfMatrix(ranks_, widened(A.take(), missing));
+}
+
 bool Hierarchy::take(const Change& change) {
   bool positive = true;
   HalfMatrix& A = matrix(0);
+  std::vector<LentMatrix::Number> numbers;
   for (std::size_t e = 0; e < change.values.size(); ++e) {
     const int row = change.rows[e] - A.first_row();
     double* number = A.find(row, change.columns[e]);
     if (!number) throw std::runtime_error("multigrid: the matrix has another pattern than the one that the solver was made for");
     if (change.rows[e] == change.columns[e] && !(change.values[e] > 0)) positive = false;
     if (*number == change.values[e]) continue;
-    if (piece_.lent) piece_.lent->change(*number, change.values[e]);
-    else *number = change.values[e];
+    numbers.emplace_back(number, change.values[e]);
     pending_[0][row] = 1;
     if (A.has(change.columns[e])) pending_[0][change.columns[e] - A.first_row()] = 1;
   }
+  if (piece_.lent) piece_.lent->change(std::move(numbers));
+  else for (const auto& [place, number] : numbers) *place = number;
   return positive;
 }
 

@@ -16,8 +16,8 @@ namespace dotyk::multigrid {
 /// Matrices and interpolations of all levels; each rank holds its rows. All functions are collective, except the const ones.
 class Hierarchy {
  public:
-  /// `first` makes the piece's matrix positive definite.
-  Hierarchy(const Ranks& ranks, Piece piece, const Change& first);
+  /// `beside`: entries that are others than those of a slice's matrix, whose pattern need not have them. `first` makes the matrix positive definite.
+  Hierarchy(const Ranks& ranks, Piece piece, const Change& beside, const Change& first);
 
   /// New numbers, and the coarse matrices for them. False where they are seen not to be positive definite.
   bool set(const Change& change);
@@ -33,14 +33,15 @@ class Hierarchy {
  private:
   /// Takes the entries. False where a number of the diagonal is not positive.
   bool take(const Change& change);
+  void make_room_for(const Change& change);
   void add_level(HalfMatrix matrix) { matrices_.push_back(std::make_shared<HalfMatrix>(std::move(matrix))); }
   OwnedMat oblong(Rows& rows, int own_columns, std::array<int, 2> blocks);
-  void coarsen(const Change& first);
+  void coarsen(const Change& beside, const Change& first);
   void compute_coarser();
   /// Levels of coarser meshes. S: the unknowns, of displacements, all slots; null where they are the same.
   void take_functions(Mat S);
-  /// Levels of aggregates below `finest`, which has the modes.
-  void take_aggregates(const HalfMatrix& of);
+  /// Levels of aggregates below a matrix, which has the modes.
+  void take_aggregates(OwnedMat of);
   /// Interpolations from coarse displacements to the unknowns, and coarse matrices of these.
   void take_unknowns(Mat S);
   void multiply(int level);  ///< makes the product that gives the next level

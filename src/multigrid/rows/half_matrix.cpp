@@ -34,6 +34,39 @@ HalfRows::Place HalfRows::place(int row, int column) {
   return out;
 }
 
+HalfRows widened(HalfRows rows, const std::vector<std::array<int, 2>>& pairs) {
+  const int count = rows.nodes(), first = rows.first;
+  const Buckets more(count, [&](auto&& put) {
+    for (const auto& [a, b] : pairs) {
+      if (rows.own(a)) put(a - first, b);
+      if (rows.own(b)) put(b - first, a);
+    }
+  });
+  Rows nodes;
+  std::vector<int> row;
+  for (int i = 0; i < count; ++i) {
+    row.assign(more[i].begin(), more[i].end());
+    for (int k = rows.starts[i]; k < rows.starts[i + 1]; ++k) row.push_back(first + rows.columns[k]);
+    row.insert(row.end(), rows.others.begin() + rows.other_starts[i], rows.others.begin() + rows.other_starts[i + 1]);
+    nodes.append_columns(row);
+  }
+  HalfRows wider(rows.block, first, nodes);
+  nodes = {};
+  const std::ptrdiff_t square = rows.block * rows.block;
+  const auto copy = [&](const std::vector<int>& starts, const std::vector<int>& columns, const std::vector<double>& numbers, const std::vector<int>& to_starts,
+                        const std::vector<int>& to_columns, std::vector<double>& to) {
+    for (int i = 0; i < count; ++i)
+      for (int k = starts[i], at = to_starts[i]; k < starts[i + 1]; ++k) {
+        while (to_columns[at] != columns[k]) ++at;
+        std::copy_n(numbers.begin() + k * square, square, to.begin() + at * square);
+      }
+  };
+  wider.diagonal = std::move(rows.diagonal);
+  copy(rows.starts, rows.columns, rows.below, wider.starts, wider.columns, wider.below);
+  copy(rows.other_starts, rows.others, rows.other, wider.other_starts, wider.others, wider.other);
+  return wider;
+}
+
 HalfMatrix::HalfMatrix(const Ranks& ranks, HalfRows rows)
     : ranks_(ranks), rows_(std::move(rows)), others_(rows_.others), room_{{block(), nodes()}, {block(), nodes()}} {
   std::ranges::sort(others_);

@@ -2,8 +2,9 @@
 // solver's back: two of them must not run at the same time.
 #pragma once
 
+#include <algorithm>
+#include <iterator>
 #include <memory>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -14,15 +15,21 @@ namespace dotyk::multigrid {
 /// One matrix for a slice and the solver that it lends it to. Where the solver has other numbers, the slice's are remembered.
 class LentMatrix {
  public:
+  using Number = std::pair<double*, double>;  ///< a place in the matrix, and what is to be there
+
   explicit LentMatrix(HalfMatrix matrix) : matrix_(std::move(matrix)) {}
   LentMatrix(const LentMatrix&) = delete;
   LentMatrix& operator=(const LentMatrix&) = delete;
 
-  HalfMatrix& now() { return matrix_; }  ///< as the solver has it
-  void change(double& number, double to) {
-    const auto [at, first] = before_.try_emplace(&number, number);
-    number = to;
-    if (to == at->second) before_.erase(at);
+  HalfMatrix& now() { return matrix_; }  ///< as the solver has it; its pattern may be widened before the first change()
+  void change(std::vector<Number> numbers) {
+    std::ranges::sort(numbers);
+    numbers.erase(std::ranges::unique(numbers).begin(), numbers.end());
+    for (auto& [place, number] : numbers) std::swap(*place, number);  // now the numbers before
+    std::vector<Number> all;
+    std::ranges::set_union(before_, numbers, std::back_inserter(all), {}, &Number::first, &Number::first);  // of one place the elder number
+    std::erase_if(all, [](const Number& n) { return *n.first == n.second; });
+    before_.swap(all);
   }
   /// Calls work(matrix) with the slice's numbers in place, and puts the solver's back.
   template <class Work>
@@ -42,7 +49,7 @@ class LentMatrix {
   }
 
   HalfMatrix matrix_;
-  std::unordered_map<double*, double> before_;
+  std::vector<Number> before_;  ///< the slice's, by place
 };
 
 /// times() and the constructor are collective.

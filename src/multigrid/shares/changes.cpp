@@ -8,7 +8,7 @@ std::set<int> sharing_unknowns(const Matrix& matrix) {
   constexpr double kStiffer = 2;
   std::set<int> sharing;
   if (!matrix.unknowns) return sharing;
-  const algebra::Vector k = matrix.displaced->diagonal();
+  const algebra::Vector k = matrix.slices ? matrix.slices->diagonal() : algebra::Vector(matrix.displaced->diagonal());
   const algebra::SparseRows S = *matrix.unknowns;
   algebra::Vector brought = algebra::Vector::Zero(k.size()), carried = brought;  // stiffness, to an unknown by rows, and by a row to others
   const auto each_pair = [&](auto&& visit) {

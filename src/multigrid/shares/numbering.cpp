@@ -127,17 +127,20 @@ class Sharing {
     for (int b = 0; b < nodes(0); ++b)
       for (int k = K.outerIndexPtr()[first_[b]]; k < K.outerIndexPtr()[first_[b] + 1]; ++k) edge(b, node[K.innerIndexPtr()[k]]);
   }
-  /// Unknowns that a row of an interface couples: kept together: less is exchanged then, and an exact solution at unknowns that share stiffness stays on one rank.
+  /// Unknowns that a row of an interface couples are kept together: less is exchanged then, and an exact solution at unknowns that share stiffness stays on one rank.
   template <class Edge>
   void rows_join(const std::vector<std::vector<int>>& parents, Edge& edge) const {
     constexpr int kWeight = 10;
-    if (!matrix_.unknowns) return;
-    std::vector<int> node = node_of_unknowns();
-    for (const std::vector<int>& parent : parents)
-      for (int& n : node) n = parent[n];
-    for (int j = 0; j < matrix_.unknowns->cols(); ++j)
-      for (algebra::SparseMatrix::InnerIterator it(*matrix_.unknowns, j); it; ++it)
-        for (int times = 0; times < kWeight && it.row() != j; ++times) edge(node[it.row()], node[j]);
+    if (!matrix_.rows) return;
+    const std::vector<int> nodes = node_of_unknowns();
+    const auto node = [&](Eigen::Index unknown) {
+      int at = nodes[unknown];
+      for (const std::vector<int>& parent : parents) at = parent[at];
+      return at;
+    };
+    for (int r = 0; r < matrix_.rows->rows(); ++r)
+      for (algebra::SparseRows::InnerIterator first(*matrix_.rows, r), it = first; it; ++it)
+        for (int times = 0; times < kWeight && it.col() != first.col(); ++times) edge(node(it.col()), node(first.col()));
   }
   std::vector<int> node_of_unknowns() const {
     std::vector<int> node;

@@ -13,6 +13,7 @@
 #include "elasticity/share.hpp"
 #include "elasticity/weak_motions.hpp"
 #include "multigrid/slices.hpp"
+#include "problem/coarser.hpp"
 #include "problem/contradiction.hpp"
 #include "scene/model/row_builder.hpp"
 #include "scene/model/subdomains.hpp"
@@ -65,44 +66,51 @@ std::vector<std::string> describe_nearly_free(const Scene& scene, const Model& m
 
 namespace {
 
-/// The load of a body's block for its prescribed components as they are now: f and offset as elasticity::assemble.
+void take_load(const Body& body, elasticity::System system, problem::Block& block) {
+  block.f = std::move(system.f);
+  block.offset = system.offset + broken_energy(body);
+}
+
+/// f and the offset for the body's prescribed components as they are now.
 void set_load(const Body& body, const Numbering& numbering, problem::Block& block) {
-  const auto held = elasticity::internal_force(*body.mesh, body.material, body.facet_springs(), numbering.prescribed);
-  block.f.resize(numbering.count());
-  block.offset = broken_energy(body);
-  for (std::size_t k = 0; k < held.size(); ++k)
-    if (numbering.unknown[k] >= 0)
-      block.f[numbering.unknown[k]] = body.force[k] - held[k];
-    else
-      block.offset += numbering.prescribed[k] * (0.5 * held[k] - body.force[k]);
+  take_load(body, elasticity::load(*body.mesh, body.material, body.facet_springs(), body.force, numbering), block);
 }
 
-/// Can several ranks make the rows of K? Of one body, with coarser meshes.
+/// Can several ranks make the rows of K? Where there are coarser meshes.
 bool can_be_sliced(const problem::Problem& problem) {
-  return problem.blocks.size() == 1 && problem.blocks[0].coarse.count > 0 && multigrid::several_ranks_have_work_for(problem.unknowns());
+  return problem::coarser_meshes(problem) > 0 && multigrid::several_ranks_have_work_for(problem.unknowns());
 }
 
-/// K in slices; null where the nodes of coarser meshes are too few.
-std::shared_ptr<const algebra::SlicedMatrix> slices_of_stiffness(const Body& body, const Numbering& numbering, const problem::CoarseMeshes& coarse) {
-  const mesh::Mesh& mesh = *body.mesh;
-  const auto springs = body.facet_springs();
-  return multigrid::make_slices({numbering.node, coarse.functions(coarse.count), coarse.dimension,
-                                 [&](const std::vector<char>& own) { return elasticity::share(mesh, body.material, springs, numbering, own); },
-                                 elasticity::assemble_share});
+/// What a rank assembles the flagged rows from.
+Share share_of_all(const Model& model, const std::vector<std::vector<elasticity::FacetSpring>>& springs, const std::vector<char>& own) {
+  std::vector<Share> of_bodies;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const problem::Block& block = model.problem.blocks[b];
+    const std::vector<char> of_body(own.begin() + block.first, own.begin() + block.first + block.size());
+    if (std::ranges::none_of(of_body, [](char flag) { return flag; })) continue;
+    of_bodies.push_back(elasticity::share(*model.bodies[b].mesh, model.bodies[b].material, springs[b], model.numbering[b], of_body));
+    for (int& unknown : of_bodies.back().unknowns) unknown += block.first;
+  }
+  return elasticity::joined(std::move(of_bodies));
+}
+
+/// K of all bodies in slices; false where the nodes of coarser meshes are too few.
+bool assemble_slices(Model& model) {
+  problem::Problem& problem = model.problem;
+  std::vector<std::vector<elasticity::FacetSpring>> springs;
+  for (const Body& body : model.bodies) springs.push_back(body.facet_springs());
+  const auto slices = multigrid::make_slices({problem::nodes(problem), problem::coarse_functions(problem), problem.blocks[0].coarse.dimension, problem.B,
+                                              [&](const std::vector<char>& own) { return share_of_all(model, springs, own); }, elasticity::assemble_share});
+  if (slices) take_slices(problem, slices);
+  return slices != nullptr;
 }
 
 /// K, f and the offset.
-void assemble(const Body& body, const Numbering& numbering, bool slices, problem::Block& block) {
-  if (slices)
-    if (auto K = slices_of_stiffness(body, numbering, block.coarse)) {
-      block.K = std::move(K);
-      return set_load(body, numbering, block);
-    }
+void assemble(const Body& body, const Numbering& numbering, problem::Block& block) {
   require_memory(2 * elasticity::matrix_bytes(*body.mesh), "the stiffness of '" + body.name + "'");  // and as much while it is made
   auto system = elasticity::assemble(*body.mesh, body.material, body.facet_springs(), body.force, numbering);
   block.K = std::move(system.K);
-  block.f = std::move(system.f);
-  block.offset = system.offset + broken_energy(body);
+  take_load(body, std::move(system), block);
 }
 
 /// A block that is not assembled yet.
@@ -220,12 +228,14 @@ Model build(const Scene& scene, problem::Clock& clock, Monitor& monitor, const L
   }
   monitor.check();
   set_rows(scene, loading, model);
-  const bool in_slices = slices && can_be_sliced(model.problem) && slices(model.problem);
+  const bool may_be_sliced = slices && can_be_sliced(model.problem) && slices(model.problem);
+  if (may_be_sliced) monitor.phase("assembling on all ranks");
+  const bool in_slices = may_be_sliced && assemble_slices(model);
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     const Body& body = model.bodies[b];
-    monitor.phase(text("assembling '", body.name, "' (", body.mesh->cell_count(), " cells)"));
     problem::Block& block = model.problem.blocks[b];
-    assemble(body, model.numbering[b], in_slices, block);
+    if (in_slices) set_load(body, model.numbering[b], block);
+    else monitor.phase(text("assembling '", body.name, "' (", body.mesh->cell_count(), " cells)")), assemble(body, model.numbering[b], block);
     problem::require_kernel(block.K, block.kernel, "'" + block.name + "'", block.motions);
     model.nearly_free.push_back(nearly_free(body, model.numbering[b], block, model.softest));
     monitor.check();

@@ -7,7 +7,6 @@
 #include "base/stopwatch.hpp"
 #include "base/text.hpp"
 #include "scene/result/solution.hpp"
-#include "problem/row_basis.hpp"
 #include "solver/core/default_method.hpp"
 
 namespace dotyk::scene {
@@ -180,9 +179,8 @@ class History {
   void load(const Step& step, Monitor& monitor) {
     loading_.take(step, *scene_);
     if (!built_) model_ = build(*scene_, clock_, monitor, loading_, method_.decomposition(), [&](const problem::Problem& p) {
-        const bool held = p.blocks[0].kernel.cols() == 0;  // else the default method is chosen by K
-        const bool taken = method_ ? method_.takes_slices() : held && !condenser_ && solver::default_method(p) == solver::DefaultMethod::multigrid;
-        return taken && problem::row_basis(p).of_signs();
+        const bool held = std::ranges::all_of(p.blocks, [](const problem::Block& b) { return b.kernel.cols() == 0; });  // else the default method is chosen by K
+        return method_ ? method_.takes_slices() : held && !condenser_ && solver::default_method(p) == solver::DefaultMethod::multigrid;
       });
     if (built_ || (last_ && breaks_)) reload(*scene_, bodies_, loading_, model_, clock_);
     built_ = true;

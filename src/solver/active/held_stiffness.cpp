@@ -58,7 +58,8 @@ HeldStiffness::HeldStiffness(const Problem& problem, const RigidMotions& rigid, 
   for (const int unknown : fixing_) change(unknown, unknown, lower().coeff(unknown, unknown));  // carries nothing
   if (rigid.noticed.cols() > 0) spring_rows(problem.row_stiffness());
   std::vector<Entry> first = now();
-  solver_ = make.make({lower(), numbers(first), problem, basis_, monitor, nested, slices_});
+  solver_ = make.make({lower(), numbers(first), problem, basis_, monitor, nested, slices_, beside_});
+  beside_ = {};
   told_ = std::move(first);
 }
 
@@ -71,14 +72,9 @@ void HeldStiffness::assemble(bool takes_slices) {
     const int a = basis_.unknown[first], b = basis_.unknown[first + group.components - 1];
     if (a >= 0 && b >= 0) entries.emplace_back(std::max(a, b), std::min(a, b), 0.0);
   }
+  if (takes_slices) slices_ = problem::slices(problem_);
+  if (slices_) return assemble_near_rows(entries);
   const bool alone = problem_.blocks.size() == 1;
-  if (const auto* slices = problem_.blocks.front().K.slices(); slices && takes_slices && alone && basis_.of_signs()) {
-    std::vector<char> of(static_cast<std::size_t>(problem_.unknowns()), 0);
-    for (const auto& entry : entries) of[entry.row()] = of[entry.col()] = 1;
-    for (const int unknown : fixing_) of[unknown] = 1;
-    lower_ = with_signs(slices->near(of), basis_);
-    if (has_room(lower(), entries)) return void(slices_ = slices);
-  }
   for (const problem::Block& block : problem_.blocks)
     for (int j = 0; j < block.size(); ++j)
       if (!algebra::diagonal_entry(block.K.lower(), j)) entries.emplace_back(block.first + j, block.first + j, 0.0);
@@ -93,8 +89,41 @@ void HeldStiffness::assemble(bool takes_slices) {
   lower_ = basis_.of_signs() ? with_signs(std::move(A), basis_) : std::move(A);
 }
 
+void HeldStiffness::assemble_near_rows(const algebra::Triplets& room) {
+  std::vector<char> of(static_cast<std::size_t>(problem_.unknowns()), 0);
+  for (Eigen::Index j = 0; j < basis_.T.cols(); ++j) {  // of other columns TᵀKT has K's entries
+    const SparseMatrix::InnerIterator first(basis_.T, j);
+    of[j] = first.row() != j || first.value() != 1 || basis_.T.outerIndexPtr()[j + 1] - basis_.T.outerIndexPtr()[j] > 1;
+  }
+  const std::vector<char> changed = of;
+  for (const auto& entry : room) of[entry.row()] = of[entry.col()] = 1;
+  for (const int unknown : fixing_) of[unknown] = 1;
+  StoredMatrix A = near_from_slices(of, 0);
+  const bool has = has_room(A, room);
+  if (!has) A = algebra::lower_sum(A, algebra::from_triplets(problem_.unknowns(), problem_.unknowns(), room));
+  lower_ = std::move(A);
+  algebra::each_entry_of(lower(), changed, [&](int place, int row, int column) { beside_.emplace_back(row, column, lower().valuePtr()[place]); });
+  for (std::size_t k = 0; k < room.size() && !has; ++k) beside_.emplace_back(room[k].row(), room[k].col(), lower().coeff(room[k].row(), room[k].col()));
+}
+
+StoredMatrix HeldStiffness::near_from_slices(std::vector<char>& of, int layers) const {
+  if (basis_.of_signs()) return with_signs(slices_->near(of, layers), basis_);
+  std::vector<char> moved = of;  // flags of displacements
+  const auto each_moved = [&](auto&& visit) {
+    for (Eigen::Index j = 0; j < basis_.T.cols(); ++j)
+      for (SparseMatrix::InnerIterator it(basis_.T, j); it; ++it) visit(of[j], moved[it.row()]);
+  };
+  each_moved([](char unknown, char& displacement) { displacement |= unknown; });
+  StoredMatrix K = slices_->near(moved, layers), A = algebra::congruent_near(K, basis_.T);
+  of = moved;
+  each_moved([](char& unknown, char displacement) { unknown &= displacement; });
+  K *= 0;
+  A = algebra::lower_sum(A, K);  // where an unknown is a row's that moves others alone, TᵀKT is zero and K is not
+  return A;
+}
+
 algebra::SymmetricMatrix HeldStiffness::near(std::vector<char>& of, int layers) const {
-  if (slices_) return with_signs(slices_->near(of, layers), basis_);
+  if (slices_) return near_from_slices(of, layers);
   for (; layers > 0; --layers) {
     std::vector<char> wider = of;
     algebra::each_entry_of(lower(), of, [&](int, int row, int column) { wider[row] = wider[column] = 1; });
@@ -233,14 +262,6 @@ DenseMatrix all_rigid_motions(const Problem& problem) {
   return all;
 }
 
-/// The stiffness, definite also where nothing holds a body.
-SparseMatrix held_slightly(const Problem& problem) {
-  constexpr double kSlightly = 1e-8;
-  SparseMatrix K = problem::lower_stiffness(problem);
-  K.diagonal() *= 1 + kSlightly;
-  return K;
-}
-
 /// Solves with TᵀKT, T of signs, by a solver for K.
 class SignedSolver final : public algebra::SpdSolver {
  public:
@@ -286,19 +307,21 @@ MakeSpdSolver multigrid(Levels levels, double most_iterations) {
     auto coarse = levels == Levels::meshes ? problem::coarse_functions(s.problem) : std::vector<SparseRows>();
     const bool of_signs = s.basis.of_signs(), other_signs = of_signs && !s.basis.trivial();
     StoredMatrix K;
-    if (!of_signs) K = held_slightly(s.problem);
-    else if (other_signs && !s.slices) K = s.lower, K = with_signs(std::move(K), s.basis);
-    const algebra::Triplets changed = other_signs ? SignedSolver::of_K(s.changed, s.basis.signs) : s.changed;
+    if (s.slices) {}
+    else if (!of_signs) K = problem::lower_stiffness(s.problem);
+    else if (other_signs) K = s.lower, K = with_signs(std::move(K), s.basis);
+    const auto of_K = [&](const algebra::Triplets& entries) { return other_signs ? SignedSolver::of_K(entries, s.basis.signs) : entries; };
+    const algebra::Triplets changed = of_K(s.changed), beside = of_K(s.beside_slices);
     multigrid::Matrix matrix{other_signs && !s.slices ? K : s.lower, nodes, [&] {
                                DenseMatrix motions = all_rigid_motions(s.problem);
                                for (const SparseRows& functions : coarse) motions = problem::at_coarse(functions, motions);
                                return motions;
                              }};
-    matrix.changed = &changed, matrix.slices = s.slices;
+    matrix.rows = &s.problem.B, matrix.changed = &changed, matrix.slices = s.slices, matrix.beside_slices = &beside;
     matrix.most_iterations = most_iterations;
     if (!coarse.empty()) matrix.coarse = &coarse, matrix.dimension = s.problem.blocks[0].coarse.dimension, matrix.coarser = s.nested ? &s.nested->stiffness : nullptr;
     const SparseMatrix unknowns = of_signs ? SparseMatrix() : s.basis.of_displacements(s.problem);
-    if (!of_signs) matrix.displaced = &K, matrix.unknowns = &unknowns;
+    if (!of_signs) matrix.unknowns = &unknowns, matrix.displaced = s.slices ? nullptr : &K;
     auto solver = multigrid::make_solver(matrix, s.monitor);
     if (s.nested && s.problem.blocks.size() == 1) s.nested->functions = std::move(coarse);
     if (!other_signs) return solver;

@@ -27,6 +27,7 @@ struct SpdSystem {
   Monitor& monitor;  ///< outlives the solver
   Nested* nested;    ///< null: there is no nested iteration
   const algebra::SlicedMatrix* slices = nullptr;  ///< K; null: there are none
+  const algebra::Triplets& beside_slices;  ///< entries that are not those of the slices
 };
 struct MakeSpdSolver {
   std::function<std::unique_ptr<algebra::SpdSolver>(const SpdSystem&)> make;
@@ -100,6 +101,10 @@ class HeldStiffness {
   /// The lower triangle of TᵀKT; where rows couple unknowns its pattern has places, with zeros if need be. Of slices, all entries of unknowns of rows.
   const algebra::SparseMatrix& lower() const { return lower_.lower(); }
   void assemble(bool takes_slices);
+  /// The part of assemble() where K is in slices. `room`: places that the pattern must have.
+  void assemble_near_rows(const algebra::Triplets& room);
+  /// near() where K is in slices. Layers are of displacements: those that the flagged unknowns move, and their neighbours.
+  algebra::StoredMatrix near_from_slices(std::vector<char>& of, int layers) const;
   void change(int row, int column, double by);
   void spring_rows(const algebra::Vector& spring);
   void watch(const std::vector<char>& held);
@@ -119,7 +124,8 @@ class HeldStiffness {
   const algebra::SparseMatrix unnoticed_;
   algebra::SparseRows rows_;
   algebra::SymmetricMatrix lower_;  ///< K itself where that has the room and T is the identity
-  const algebra::SlicedMatrix* slices_ = nullptr;  ///< K, and T is of signs; null: lower() is the whole
+  const algebra::SlicedMatrix* slices_ = nullptr;  ///< K; null: lower() is the whole
+  algebra::Triplets beside_;        ///< as in SpdSystem, until the solver is made
   std::vector<int> fixing_;         ///< unknowns that hold motions which no row notices
   std::vector<Entry> changed_;      ///< of the next matrix, in no order
   std::vector<Entry> told_;         ///< of the solver's
