@@ -190,21 +190,25 @@ SparseMatrix lower_sum(const SparseMatrix& A, const SparseMatrix& B) {
 SparseMatrix congruent(const SparseMatrix& lower, const SparseMatrix& P) { return congruent(lower, P, SparseRows(P)); }
 SparseMatrix congruent(const SparseMatrix& lower, const SparseRows& P) { return congruent(lower, SparseMatrix(P), P); }
 
-namespace {
-
-/// The chosen rows (place[row] ≥ 0 is the new number) of the chosen columns; entries in other rows are left out.
-SparseMatrix some_of(const SparseMatrix& from, const std::vector<int>& place, int rows, const std::vector<int>& columns) {
-  SparseMatrix some(rows, static_cast<Eigen::Index>(columns.size()));
-  for (std::size_t J = 0; J < columns.size(); ++J) {
-    some.startVec(static_cast<Eigen::Index>(J));
+SparseMatrix part_of(const SparseMatrix& from, const std::vector<int>& place, const std::vector<int>& columns) {
+  const auto count = static_cast<Eigen::Index>(columns.size());
+  const int rows = place.empty() ? 0 : *std::ranges::max_element(place) + 1;
+  SparseMatrix part(rows, count);
+  const auto each_of = [&](Eigen::Index J, auto&& visit) {
     for (SparseMatrix::InnerIterator it(from, columns[J]); it; ++it)
-      if (const int row = place[it.row()]; row >= 0) some.insertBack(row, static_cast<Eigen::Index>(J)) = it.value();
+      if (const int row = place[it.row()]; row >= 0) visit(row, it.value());
+  };
+  int* starts = part.outerIndexPtr();
+  for (Eigen::Index J = 0; J < count; ++J) {
+    int entries = 0;
+    each_of(J, [&](int, double) { ++entries; });
+    starts[J + 1] = starts[J] + entries;
   }
-  some.finalize();
-  return some;
+  part.resizeNonZeros(starts[count]);
+  for (Eigen::Index J = 0, at = 0; J < count; ++J)
+    each_of(J, [&](int row, double value) { part.innerIndexPtr()[at] = row, part.valuePtr()[at++] = value; });
+  return part;
 }
-
-}  // namespace
 
 StoredMatrix congruent_near(const SparseMatrix& lower, const SparseMatrix& P) {
   std::vector<int> place(static_cast<std::size_t>(P.rows()), -1), met, columns;
@@ -217,8 +221,7 @@ StoredMatrix congruent_near(const SparseMatrix& lower, const SparseMatrix& P) {
     while (it && place[it.row()] < 0) ++it;
     if (it) columns.push_back(J);
   }
-  const auto count = static_cast<int>(met.size());
-  const SparseMatrix small = congruent(some_of(lower, place, count, met), some_of(P, place, count, columns));
+  const SparseMatrix small = congruent(part_of(lower, place, met), part_of(P, place, columns));
   StoredMatrix all;
   all.resize(P.cols(), P.cols());
   all.resizeNonZeros(small.nonZeros());

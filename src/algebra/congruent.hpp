@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "algebra/types.hpp"
 
 namespace dotyk::algebra {
@@ -7,6 +9,9 @@ namespace dotyk::algebra {
 /// The lower triangle of A + B. Columns of all three are sorted by rows. Room for the sum is taken at once: Eigen's own sum takes it piece by piece, and
 /// then most of the time goes into copies where matrices are large.
 SparseMatrix lower_sum(const SparseMatrix& A, const SparseMatrix& B);
+
+/// Some columns of a matrix, ascending. `place`: of each row its number among those of the part, ascending; −1: it is left out.
+SparseMatrix part_of(const SparseMatrix& from, const std::vector<int>& place, const std::vector<int>& columns);
 
 /// PᵀAP, m × m, of a symmetric A, n × n, for P, n × m. `lower` has no entries above the diagonal; nor has the result, whose columns are sorted.
 SparseMatrix congruent(const SparseMatrix& lower, const SparseMatrix& P);

@@ -64,16 +64,16 @@ class Sharing {
     const int meshes = matrix.coarse ? static_cast<int>(matrix.coarse->size()) : 0;
     for (int l = 0; l <= meshes; ++l) of_.emplace_back(static_cast<std::size_t>(nodes(l)), 0);
     if (ranks == 1) return;
-    int level = meshes;
-    while (level > 0 && nodes(level) < kEnough * ranks) --level;
     std::vector<std::vector<int>> parents;
     std::vector<idx_t> weight(static_cast<std::size_t>(nodes(0)), 1);  // of a node the finest ones that follow it
-    for (int l = 0; l < level; ++l) {
-      parents.push_back(parents_of(l));
+    for (int l = 0; l < meshes && nodes(l + 1) >= kEnough * ranks; ++l) {
+      std::vector<int> parent = parents_of(l);
       std::vector<idx_t> sum(static_cast<std::size_t>(nodes(l + 1)), 0);
-      for (int node = 0; node < nodes(l); ++node) sum[parents[l][node]] += weight[node];
-      weight = std::move(sum);
+      for (int node = 0; node < nodes(l); ++node) sum[parent[node]] += weight[node];
+      if (l > 0 && *std::ranges::max_element(sum) > nodes(0) / (kEnough * ranks)) break;  // as where a body has more coarser meshes than the others
+      parents.push_back(std::move(parent)), weight = std::move(sum);
     }
+    const auto level = static_cast<int>(parents.size());
     of_[level] = share_out(std::move(weight), ranks_, [&](auto&& edge) {
       level > 0 ? functions_meet(level, edge) : matrix_meets(edge);
       rows_join(parents, edge);

@@ -96,6 +96,7 @@ void HeldStiffness::assemble_near_rows(const algebra::Triplets& room) {
     of[j] = first.row() != j || first.value() != 1 || basis_.T.outerIndexPtr()[j + 1] - basis_.T.outerIndexPtr()[j] > 1;
   }
   const std::vector<char> changed = of;
+  moves_others_alone_ = basis_.T.rows() > 0 && (basis_.T.diagonal().array() == 0).any();
   for (const auto& entry : room) of[entry.row()] = of[entry.col()] = 1;
   for (const int unknown : fixing_) of[unknown] = 1;
   StoredMatrix A = near_from_slices(of, 0);
@@ -117,8 +118,7 @@ StoredMatrix HeldStiffness::near_from_slices(std::vector<char>& of, int layers) 
   StoredMatrix K = slices_->near(moved, layers), A = algebra::congruent_near(K, basis_.T);
   of = moved;
   each_moved([](char& unknown, char displacement) { unknown &= displacement; });
-  K *= 0;
-  A = algebra::lower_sum(A, K);  // where an unknown is a row's that moves others alone, TᵀKT is zero and K is not
+  if (moves_others_alone_) K *= 0, A = algebra::lower_sum(A, K);
   return A;
 }
 

@@ -125,6 +125,7 @@ class HeldStiffness {
   algebra::SparseRows rows_;
   algebra::SymmetricMatrix lower_;  ///< K itself where that has the room and T is the identity
   const algebra::SlicedMatrix* slices_ = nullptr;  ///< K; null: lower() is the whole
+  bool moves_others_alone_ = false; ///< does an unknown not move its own displacement? There TᵀKT may be zero where K is not
   algebra::Triplets beside_;        ///< as in SpdSystem, until the solver is made
   std::vector<int> fixing_;         ///< unknowns that hold motions which no row notices
   std::vector<Entry> changed_;      ///< of the next matrix, in no order

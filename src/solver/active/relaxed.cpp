@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "algebra/congruent.hpp"
+
 namespace dotyk::solver {
 namespace {
 
@@ -43,12 +45,14 @@ class NonlinearSmoothing {
   NonlinearSmoothing(const Problem& problem, const HeldStiffness& stiffness, const problem::State& from, const std::vector<int>& bearing)
       : problem_(problem), basis_(stiffness.basis()), from_(from), lambda_(from.lambda) {
     std::vector<char> near = own_unknowns(bearing, stiffness, problem.unknowns());
-    const algebra::SymmetricMatrix matrix = stiffness.near(near, kLayers);
+    algebra::SymmetricMatrix matrix = stiffness.near(near, kLayers);
     std::vector<int> place(near.size(), -1);
     for (std::size_t i = 0; i < near.size(); ++i)
       if (near[i]) place[i] = size(), unknowns_.push_back(static_cast<int>(i));
     rows_.resize(unknowns_.size()), moved_ = Vector::Zero(size());
-    take_matrix(matrix.lower(), place);
+    A_ = algebra::part_of(matrix.lower(), place, unknowns_).selfadjointView<Eigen::Lower>();
+    matrix = {};
+    diagonal_ = A_.diagonal();
     take_rows(place);
     const Vector jump = problem.B * from.u - problem.c;
     Vector given = lambda_;
@@ -83,19 +87,6 @@ class NonlinearSmoothing {
   };
 
   int size() const { return static_cast<int>(unknowns_.size()); }
-
-  void take_matrix(const SparseMatrix& lower, const std::vector<int>& place) {
-    algebra::Triplets entries;
-    for (int at = 0; at < size(); ++at)
-      for (SparseMatrix::InnerIterator it(lower, unknowns_[at]); it; ++it) {
-        const int i = place[it.row()];
-        if (i < 0) continue;
-        entries.emplace_back(i, at, it.value());
-        if (i != at) entries.emplace_back(at, i, it.value());
-      }
-    A_ = algebra::from_triplets(size(), size(), entries);
-    diagonal_ = A_.diagonal();
-  }
 
   void take_rows(const std::vector<int>& place) {
     const auto place_of = [&](int r) { return basis_.unknown[r] < 0 ? -1 : place[basis_.unknown[r]]; };
