@@ -67,10 +67,10 @@ Point Mesh::facet_area_vector(Facet f) const {
   return times(0.5, cross(minus(c, a), minus(d, b)));  // of the diagonals
 }
 
-int coarser_count(const Mesh& mesh) {
-  int count = 0;
-  for (const Coarser* c = mesh.coarser.get(); c; c = c->next.get()) ++count;
-  return count;
+std::vector<int> coarser_nodes(const Mesh& mesh) {
+  std::vector<int> nodes;
+  for (const Coarser* c = mesh.coarser.get(); c; c = c->next.get()) nodes.push_back(c->node_count);
+  return nodes;
 }
 
 Buckets cells_of_nodes(const Mesh& mesh) {

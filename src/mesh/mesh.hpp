@@ -63,8 +63,8 @@ struct Mesh {
 /// d/dt of facet_area_vector() of a facet of order 1 where nodes move with the velocity V (node × dimension).
 Point facet_area_derivative(const Mesh& mesh, const std::vector<double>& V, Facet f);
 
-/// How many coarser meshes are known.
-int coarser_count(const Mesh& mesh);
+/// How many nodes each coarser mesh has that is known, the finest first.
+std::vector<int> coarser_nodes(const Mesh& mesh);
 
 /// Node → the cells that have it, ascending.
 Buckets cells_of_nodes(const Mesh& mesh);

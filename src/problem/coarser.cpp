@@ -76,7 +76,9 @@ CoarserBlock coarser(const Block& fine, std::vector<SparseRows> all) {
   if (fine.rigid) block.rigid = [rigid = fine.rigid, P = out.functions] { return at_coarse(*P, rigid()); };
   all.erase(all.begin());
   const auto rest = std::make_shared<const std::vector<SparseRows>>(std::move(all));
-  block.coarse = {static_cast<int>(rest->size()), fine.coarse.dimension, [rest](int most) { return std::vector<SparseRows>(rest->begin(), rest->begin() + most); }};
+  std::vector<int> nodes;
+  for (const SparseRows& next : *rest) nodes.push_back(static_cast<int>(next.cols()) / fine.coarse.dimension);
+  block.coarse = {std::move(nodes), fine.coarse.dimension, [rest](int most) { return std::vector<SparseRows>(rest->begin(), rest->begin() + most); }};
   return out;
 }
 
@@ -122,12 +124,23 @@ DenseMatrix at_coarse(const SparseRows& functions, const DenseMatrix& values) {
 }
 
 int coarser_meshes(const Problem& problem) {
-  int count = 0, size = -1;
+  constexpr double kWorth = 0.7;  // displacements of a mesh, of those of the finer one: bodies without coarser meshes keep theirs
+  std::size_t count = 0;
   for (const Block& block : problem.blocks) {
     if (!block.coarse.functions) return 0;
-    if (block.size() > size || (block.size() == size && block.coarse.count > count)) count = block.coarse.count, size = block.size();
+    count = std::max(count, block.coarse.nodes.size());
   }
-  return count;
+  const auto size = [&](std::size_t level) {
+    double sum = 0;
+    for (const Block& block : problem.blocks) {
+      const std::vector<int>& nodes = block.coarse.nodes;
+      const std::size_t known = std::min(level, nodes.size());
+      sum += known == 0 ? block.size() : block.coarse.dimension * nodes[known - 1];
+    }
+    return sum;
+  };
+  while (count > 0 && size(count) > kWorth * size(count - 1)) --count;
+  return static_cast<int>(count);
 }
 
 std::vector<SparseRows> coarse_functions(const Problem& problem) {

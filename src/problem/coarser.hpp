@@ -7,7 +7,8 @@
 
 namespace dotyk::problem {
 
-/// How many the largest body has; 0 where a body cannot tell functions of coarser meshes.
+/// How many are worth a level: the greatest number that a body has, without the last ones on which all bodies together have hardly fewer displacements. 0
+/// where a body cannot tell functions of coarser meshes.
 int coarser_meshes(const Problem& problem);
 /// The functions of so many coarser meshes, all bodies together, the finest of these meshes first: see elasticity::coarse_functions().
 std::vector<algebra::SparseRows> coarse_functions(const Problem& problem);

@@ -15,8 +15,8 @@ namespace dotyk::problem {
 
 /// Coarser meshes of a body, and their functions.
 struct CoarseMeshes {
-  int count = 0;      ///< that are known
-  int dimension = 0;  ///< components of a node's displacement
+  std::vector<int> nodes = {};  ///< of each that is known, the finest first
+  int dimension = 0;            ///< components of a node's displacement
   /// Of so many levels, as elasticity::coarse_functions() says.
   std::function<std::vector<algebra::SparseRows>(int levels)> functions = {};
   int order = 1;  ///< of the elements of the finest mesh

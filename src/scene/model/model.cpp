@@ -125,7 +125,7 @@ void add_body(const Body& body, Model& model) {
   block.kernel = std::move(rigid.modes);
   block.motions = std::move(rigid.motions);
   block.rigid = [mesh = body.mesh, unknown = numbering.unknown, count = numbering.count()] { return elasticity::all_rigid_motions(*mesh, unknown, count); };
-  block.coarse = {mesh::coarser_count(*body.mesh), body.mesh->dimension(), [mesh = body.mesh, unknown = numbering.unknown, count = numbering.count()](int levels) {
+  block.coarse = {mesh::coarser_nodes(*body.mesh), body.mesh->dimension(), [mesh = body.mesh, unknown = numbering.unknown, count = numbering.count()](int levels) {
                     return elasticity::coarse_functions(*mesh, unknown, count, levels);
                   }, body.mesh->topology().order};
   block.first = model.problem.unknowns();
