@@ -52,7 +52,11 @@ std::unique_ptr<algebra::SpdSolver> make_solver(const Matrix& matrix, Monitor& m
   return std::unique_ptr<algebra::SpdSolver>(make(matrix, monitor));
 }
 
-bool several_ranks_have_work_for(double unknowns) { return is_open && door<bool(double)>("dotyk_multigrid_share")(unknowns); }
+bool slices_pay_for(double unknowns) {
+  constexpr double kMany = 50'000;  // for one process
+  if (count_ranks() == 1) return unknowns >= kMany && available();
+  return door<bool(double)>("dotyk_multigrid_share")(unknowns);
+}
 
 std::shared_ptr<const algebra::SlicedMatrix> make_slices(const Shared& matrix) {
   return std::shared_ptr<const algebra::SlicedMatrix>(door<algebra::SlicedMatrix*(const Shared&)>("dotyk_multigrid_slices")(matrix));

@@ -160,6 +160,7 @@ DOTYK_DOOR void dotyk_multigrid_work(bool spawned, dotyk::multigrid::Assemble as
 DOTYK_DOOR bool dotyk_multigrid_share(double unknowns) { return dotyk::multigrid::several_ranks_have_work(unknowns); }
 DOTYK_DOOR dotyk::algebra::SlicedMatrix* dotyk_multigrid_slices(const dotyk::multigrid::Shared& matrix) {
   using namespace dotyk::multigrid;
+  start_petsc();
   if (!Numbering::shares_by_functions(matrix.coarse, matrix.dimension, ranks_now())) return nullptr;
   const std::lock_guard lock(only_one());
   return new RankSlices(workers_for(static_cast<double>(matrix.node.size())), matrix);

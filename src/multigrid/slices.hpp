@@ -24,9 +24,10 @@ struct Shared {
   Assemble assemble;                                ///< as the other ranks have it from work_for_rank_0()
 };
 
-/// Are there several ranks, and does each have enough to do with so many unknowns?
-bool several_ranks_have_work_for(double unknowns);
-/// Assembles the matrix on all ranks, each its own rows. To be called only where several_ranks_have_work_for() is true. Null where the next coarser mesh has
+/// Several ranks share the work where each has enough to do. One process saves memory where there are many unknowns: solvers take the matrix of the slices on
+/// loan. False where the library was not built.
+bool slices_pay_for(double unknowns);
+/// Assembles the matrix on all ranks, each its own rows. To be called only where slices_pay_for() is true. Null where the next coarser mesh has
 /// too few nodes to be shared out.
 std::shared_ptr<const algebra::SlicedMatrix> make_slices(const Shared& matrix);
 

@@ -76,9 +76,9 @@ void set_load(const Body& body, const Numbering& numbering, problem::Block& bloc
   take_load(body, elasticity::load(*body.mesh, body.material, body.facet_springs(), body.force, numbering), block);
 }
 
-/// Can several ranks make the rows of K? Where there are coarser meshes.
+/// Can ranks make the rows of K? Where there are coarser meshes.
 bool can_be_sliced(const problem::Problem& problem) {
-  return problem::coarser_meshes(problem) > 0 && multigrid::several_ranks_have_work_for(problem.unknowns());
+  return problem::coarser_meshes(problem) > 0 && multigrid::slices_pay_for(problem.unknowns());
 }
 
 /// What a rank assembles the flagged rows from.
@@ -229,7 +229,7 @@ Model build(const Scene& scene, problem::Clock& clock, Monitor& monitor, const L
   monitor.check();
   set_rows(scene, loading, model);
   const bool may_be_sliced = slices && can_be_sliced(model.problem) && slices(model.problem);
-  if (may_be_sliced) monitor.phase("assembling on all ranks");
+  if (may_be_sliced) monitor.phase(text("assembling (", model.problem.unknowns(), " unknowns)"));
   const bool in_slices = may_be_sliced && assemble_slices(model);
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     const Body& body = model.bodies[b];
