@@ -15,39 +15,11 @@ using algebra::Vector;
 
 namespace {
 
-/// The unknowns of a cube of n³ cells by the displacements of one of (n/2)³ cells: a node that this has not is in the middle of one of its edges. Columns
-/// of held nodes are empty. Without the empty ones where `used` is told.
-SparseRows functions_of(const test::ElasticCube& cube, int n, bool used) {
-  const int half = n / 2 + 1;
-  algebra::Triplets entries;
-  std::vector<int> column(static_cast<std::size_t>(3 * half * half * half), used ? -1 : 0);
-  const auto number = [&](const int (&at)[3], int c) { return 3 * ((at[2] * half + at[1]) * half + at[0]) + c; };
-  const auto each = [&](auto&& visit) {
-    for (std::size_t i = 0; i < cube.node.size(); ++i) {
-      int low[3], high[3];
-      for (int k = 0; k < 3; ++k) {
-        const int at = static_cast<int>(std::lround(cube.point[i][k] * n));
-        low[k] = at / 2, high[k] = (at + 1) / 2;
-      }
-      visit(static_cast<int>(i), number(low, cube.component[i]), low[2]), visit(static_cast<int>(i), number(high, cube.component[i]), high[2]);
-    }
-  };
-  int count = 0;
-  each([&](int, int j, int height) {
-    if (height > 0) column[j] = 0;
-  });
-  for (int& j : column) j = j < 0 ? -1 : count++;
-  each([&](int i, int j, int height) {
-    if (height > 0) entries.emplace_back(i, column[j], 0.5);
-  });
-  return algebra::from_triplets<SparseRows>(static_cast<int>(cube.node.size()), count, entries);
-}
-
 /// A cube on its bottom, with one coarser mesh.
 struct Nested {
   static constexpr int n = 8;
   const test::ElasticCube cube = test::cube_on_its_bottom(n);
-  const std::vector<SparseRows> coarse{functions_of(cube, n, false)};
+  const std::vector<SparseRows> coarse{test::functions_of_coarser(cube, n, false)};
   Monitor monitor = {};
 
   /// `coarser` receives the matrix of the coarser mesh.
@@ -64,7 +36,7 @@ TEST_CASE("the matrix of the next coarser mesh is told") {
   if (test::not_built()) return;
   Nested nested;
   const test::ElasticCube& cube = nested.cube;
-  const algebra::SparseMatrix expected = algebra::congruent(cube.lower, functions_of(cube, Nested::n, true));
+  const algebra::SparseMatrix expected = algebra::congruent(cube.lower, test::functions_of_coarser(cube, Nested::n, true));
   const auto silent = nested.solver(nullptr);
   const algebra::Triplets changed{{0, 0, 2 * cube.lower.coeff(0, 0)}};
   for (const algebra::Triplets* other : {static_cast<const algebra::Triplets*>(nullptr), &changed}) {  // of which it knows nothing

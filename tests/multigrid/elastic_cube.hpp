@@ -87,6 +87,34 @@ inline ElasticCube cube_on_its_bottom(int n) {
   return elastic_cube(n, [](const std::array<double, 3>& p, int) { return p[2] == 0; });
 }
 
+/// The unknowns of a cube of n³ cells by the displacements of one of (n/2)³ cells: a node that this has not is in the middle of one of its edges. Columns
+/// of held nodes are empty. Without the empty ones where `used` is told.
+inline algebra::SparseRows functions_of_coarser(const ElasticCube& cube, int n, bool used) {
+  const int half = n / 2 + 1;
+  algebra::Triplets entries;
+  std::vector<int> column(static_cast<std::size_t>(3 * half * half * half), used ? -1 : 0);
+  const auto number = [&](const int (&at)[3], int c) { return 3 * ((at[2] * half + at[1]) * half + at[0]) + c; };
+  const auto each = [&](auto&& visit) {
+    for (std::size_t i = 0; i < cube.node.size(); ++i) {
+      int low[3], high[3];
+      for (int k = 0; k < 3; ++k) {
+        const int at = static_cast<int>(std::lround(cube.point[i][k] * n));
+        low[k] = at / 2, high[k] = (at + 1) / 2;
+      }
+      visit(static_cast<int>(i), number(low, cube.component[i]), low[2]), visit(static_cast<int>(i), number(high, cube.component[i]), high[2]);
+    }
+  };
+  int count = 0;
+  each([&](int, int j, int height) {
+    if (height > 0) column[j] = 0;
+  });
+  for (int& j : column) j = j < 0 ? -1 : count++;
+  each([&](int i, int j, int height) {
+    if (height > 0) entries.emplace_back(i, column[j], 0.5);
+  });
+  return algebra::from_triplets<algebra::SparseRows>(static_cast<int>(cube.node.size()), count, entries);
+}
+
 /// z of the nodes of the top within `radius` of its middle.
 inline std::vector<char> disc_on_top(const ElasticCube& cube, double radius) {
   std::vector<char> held(cube.node.size());
