@@ -65,12 +65,12 @@ class Sharing {
     for (int l = 0; l <= meshes; ++l) of_.emplace_back(static_cast<std::size_t>(nodes(l)), 0);
     if (ranks == 1) return;
     std::vector<std::vector<int>> parents;
-    std::vector<idx_t> weight(static_cast<std::size_t>(nodes(0)), 1);  // of a node the finest ones that follow it
+    std::vector<idx_t> weight = finest_weights();  // of a node the sum of those that follow it
     for (int l = 0; l < meshes && nodes(l + 1) >= kEnough * ranks; ++l) {
       std::vector<int> parent = parents_of(l);
       std::vector<idx_t> sum(static_cast<std::size_t>(nodes(l + 1)), 0);
       for (int node = 0; node < nodes(l); ++node) sum[parent[node]] += weight[node];
-      if (l > 0 && *std::ranges::max_element(sum) > nodes(0) / (kEnough * ranks)) break;  // as where a body has more coarser meshes than the others
+      if (l > 0 && *std::ranges::max_element(sum) > std::accumulate(sum.begin(), sum.end(), idx_t{0}) / (kEnough * ranks)) break;  // as where a body has more coarser meshes than the others
       parents.push_back(std::move(parent)), weight = std::move(sum);
     }
     const auto level = static_cast<int>(parents.size());
@@ -131,16 +131,27 @@ class Sharing {
   template <class Edge>
   void rows_join(const std::vector<std::vector<int>>& parents, Edge& edge) const {
     constexpr int kWeight = 10;
+    each_coupled([&](int a, int b) {
+      for (const std::vector<int>& parent : parents) a = parent[a], b = parent[b];
+      for (int times = 0; times < kWeight; ++times) edge(a, b);
+    });
+  }
+  /// Work at nodes: with a row that couples them to others they have about five times as many neighbours.
+  std::vector<idx_t> finest_weights() const {
+    constexpr idx_t kCoupled = 5;
+    std::vector<idx_t> weight(static_cast<std::size_t>(nodes(0)), 1);
+    each_coupled([&](int a, int b) {
+      if (a != b) weight[a] = weight[b] = kCoupled;
+    });
+    return weight;
+  }
+  /// Calls visit(node, node) for the first node of each row with all of them.
+  template <class Visit>
+  void each_coupled(const Visit& visit) const {
     if (!matrix_.rows) return;
-    const std::vector<int> nodes = node_of_unknowns();
-    const auto node = [&](Eigen::Index unknown) {
-      int at = nodes[unknown];
-      for (const std::vector<int>& parent : parents) at = parent[at];
-      return at;
-    };
+    const std::vector<int> node = node_of_unknowns();
     for (int r = 0; r < matrix_.rows->rows(); ++r)
-      for (algebra::SparseRows::InnerIterator first(*matrix_.rows, r), it = first; it; ++it)
-        for (int times = 0; times < kWeight && it.col() != first.col(); ++times) edge(node(it.col()), node(first.col()));
+      for (algebra::SparseRows::InnerIterator first(*matrix_.rows, r), it = first; it; ++it) visit(node[first.col()], node[it.col()]);
   }
   std::vector<int> node_of_unknowns() const {
     std::vector<int> node;

@@ -115,6 +115,8 @@ StoredMatrix HeldStiffness::near_from_slices(std::vector<char>& of, int layers) 
       for (SparseMatrix::InnerIterator it(basis_.T, j); it; ++it) visit(of[j], moved[it.row()]);
   };
   each_moved([](char unknown, char& displacement) { displacement |= unknown; });
+  for (Eigen::Index j = 0; j < basis_.T.cols() && layers > 0; ++j)  // those that a row couples to its own unknown's
+    for (SparseMatrix::InnerIterator it(basis_.T, j); it; ++it) moved[j] |= of[it.row()];
   StoredMatrix K = slices_->near(moved, layers), A = algebra::congruent_near(K, basis_.T);
   of = moved;
   each_moved([](char& unknown, char displacement) { unknown &= displacement; });
