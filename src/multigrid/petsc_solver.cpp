@@ -15,13 +15,21 @@ namespace dotyk::multigrid {
 
 namespace {
 
+Numbering numbered(const Matrix& matrix, int ranks) {
+  const EachPair each_pair = [&, &K = matrix.displaced ? *matrix.displaced : matrix.lower](const auto& visit) {
+    for (int j = 0; j < K.cols(); ++j)
+      for (algebra::SparseMatrix::InnerIterator it(K, j); it; ++it) visit(static_cast<int>(it.row()), j);
+  };
+  return {{matrix.node, matrix.coarse, matrix.dimension, matrix.rows, each_pair}, ranks};
+}
+
 /// The solver as rank 0 has it. The other ranks have a Cycle each, and do what this one tells them.
 class PetscSolver final : public algebra::SpdSolver {
  public:
   PetscSolver(const Matrix& matrix, Monitor& monitor)
       : monitor_(monitor), most_(matrix.most_iterations), geometric_(matrix.coarse), slices_(static_cast<const RankSlices*>(matrix.slices)),
         workers_(slices_ ? slices_->workers().next() : workers_for(static_cast<double>(matrix.lower.rows()))),
-        numbering_(slices_ ? slices_->numbering() : std::make_shared<const Numbering>(matrix, workers_.ranks().count())), sharing_(sharing_unknowns(matrix)) {
+        numbering_(slices_ ? slices_->numbering() : std::make_shared<const Numbering>(numbered(matrix, workers_.ranks().count()))), sharing_(sharing_unknowns(matrix)) {
     const Ranks& ranks = workers_.ranks();
     const Pieces pieces(matrix, *numbering_);
     std::shared_ptr<const algebra::SlicedMatrix> coarser;
@@ -161,7 +169,6 @@ DOTYK_DOOR bool dotyk_multigrid_share(double unknowns) { return dotyk::multigrid
 DOTYK_DOOR dotyk::algebra::SlicedMatrix* dotyk_multigrid_slices(const dotyk::multigrid::Shared& matrix) {
   using namespace dotyk::multigrid;
   start_petsc();
-  if (!Numbering::shares_by_functions(matrix.coarse, matrix.dimension, ranks_now())) return nullptr;
   const std::lock_guard lock(only_one());
   return new RankSlices(workers_for(static_cast<double>(matrix.node.size())), matrix);
 }

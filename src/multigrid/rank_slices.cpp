@@ -90,18 +90,8 @@ void tell_some(const Ranks& ranks, const Slice& slice) {
   send(ranks, 0, slice.some(rows));
 }
 
-namespace {
-
-Numbering numbering_of(const Shared& shared, int ranks) {
-  const algebra::SparseMatrix none;
-  Matrix matrix{none, shared.node, {}};
-  matrix.coarse = &shared.coarse, matrix.dimension = shared.dimension, matrix.rows = &shared.rows;
-  return Numbering(matrix, ranks);
-}
-
-}  // namespace
-
-RankSlices::RankSlices(Workers workers, const Shared& shared) : RankSlices(workers, numbering_of(shared, workers.ranks().count())) {
+RankSlices::RankSlices(Workers workers, const Shared& shared)
+    : RankSlices(workers, Numbering({shared.node, &shared.coarse, shared.dimension, &shared.rows, shared.each_pair}, workers.ranks().count())) {
   workers_.ranks().together([&] {
     slice_ = share_out(shared);
     take_diagonal();

@@ -13,12 +13,16 @@ namespace dotyk::multigrid {
 /// Assembles the lower triangle of a share's matrix.
 using Assemble = algebra::StoredMatrix (*)(Lists lists);
 
+/// Calls visit(i, j) for pairs, some of them several times.
+using EachPair = std::function<void(const std::function<void(int, int)>& visit)>;
+
 /// A symmetric matrix that is to be assembled. Nothing of it is kept.
 struct Shared {
   const std::vector<int>& node;                     ///< of each unknown, ascending, as in Matrix
-  const std::vector<algebra::SparseRows>& coarse;   ///< as in Matrix
+  const std::vector<algebra::SparseRows>& coarse;   ///< as in Matrix; none: there is no coarser mesh
   int dimension;                                    ///< as in Matrix
   const algebra::SparseRows& rows;                  ///< as in Matrix
+  EachPair each_pair;                               ///< of unknowns of nodes that the matrix couples: one of each node is enough
   /// A share whose matrix has the right entries in rows of the flagged unknowns. Several threads call it.
   std::function<Share(const std::vector<char>& own)> share;
   Assemble assemble;                                ///< as the other ranks have it from work_for_rank_0()
@@ -27,8 +31,7 @@ struct Shared {
 /// Several ranks share the work where each has enough to do. One process saves memory where there are many unknowns: solvers take the matrix of the slices on
 /// loan. False where the library was not built.
 bool slices_pay_for(double unknowns);
-/// Assembles the matrix on all ranks, each its own rows. To be called only where slices_pay_for() is true. Null where the next coarser mesh has
-/// too few nodes to be shared out.
+/// Assembles the matrix on all ranks, each its own rows. To be called only where slices_pay_for() is true.
 std::shared_ptr<const algebra::SlicedMatrix> make_slices(const Shared& matrix);
 
 }  // namespace dotyk::multigrid

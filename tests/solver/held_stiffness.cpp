@@ -138,7 +138,7 @@ TEST_CASE("slices of several bodies, whose rows couple many displacements, give 
     for (int i = 0; i < K.rows(); ++i) all.unknowns.push_back(i);
     return all;
   };
-  take_slices(sliced, multigrid::make_slices({nodes(whole), coarse_functions(whole), 3, whole.B, share, from_lists}));
+  take_slices(sliced, multigrid::make_slices({nodes(whole), coarse_functions(whole), 3, whole.B, [](const auto&) {}, share, from_lists}));
   REQUIRE(slices(sliced));
   const auto rigid = problem::rigid_motions(whole);
   const Vector u = test::Random(7).vector(whole.unknowns());

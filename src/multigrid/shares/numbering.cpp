@@ -60,8 +60,8 @@ constexpr int kEnough = 100;  ///< nodes for each rank, so that shares are alike
 class Sharing {
  public:
   /// `first`: unknown of each node, and the number of all.
-  Sharing(const Matrix& matrix, const std::vector<int>& first, int ranks) : matrix_(matrix), first_(first), ranks_(ranks) {
-    const int meshes = matrix.coarse ? static_cast<int>(matrix.coarse->size()) : 0;
+  Sharing(const Coupling& coupling, const std::vector<int>& first, int ranks) : coupling_(coupling), first_(first), ranks_(ranks) {
+    const int meshes = coupling.coarse ? static_cast<int>(coupling.coarse->size()) : 0;
     for (int l = 0; l <= meshes; ++l) of_.emplace_back(static_cast<std::size_t>(nodes(l)), 0);
     if (ranks == 1) return;
     std::vector<std::vector<int>> parents;
@@ -75,7 +75,7 @@ class Sharing {
     }
     const auto level = static_cast<int>(parents.size());
     of_[level] = share_out(std::move(weight), ranks_, [&](auto&& edge) {
-      level > 0 ? functions_meet(level, edge) : matrix_meets(edge);
+      level > 0 ? functions_meet(level, edge) : nodes_meet(edge);
       rows_join(parents, edge);
     });
     for (int l = level - 1; l >= 0; --l)
@@ -86,25 +86,25 @@ class Sharing {
 
  private:
   int nodes(int level) const {
-    return level == 0 ? static_cast<int>(first_.size()) - 1 : static_cast<int>((*matrix_.coarse)[level - 1].cols()) / matrix_.dimension;
+    return level == 0 ? static_cast<int>(first_.size()) - 1 : static_cast<int>((*coupling_.coarse)[level - 1].cols()) / coupling_.dimension;
   }
   /// Calls visit(node, row) for the rows of a level: supports may take components of a node, and their functions, away.
   template <class Visit>
   void each_row(int level, Visit&& visit) const {
     for (int node = 0; node < nodes(level); ++node) {
-      const int begin = level == 0 ? first_[node] : node * matrix_.dimension, end = level == 0 ? first_[node + 1] : begin + matrix_.dimension;
+      const int begin = level == 0 ? first_[node] : node * coupling_.dimension, end = level == 0 ? first_[node + 1] : begin + coupling_.dimension;
       for (int row = begin; row < end; ++row) visit(node, row);
     }
   }
 
   /// Of each node the one of the next level whose function is greatest there; where there is none, that of the node before.
   std::vector<int> parents_of(int level) const {
-    const algebra::SparseRows& functions = (*matrix_.coarse)[level];
+    const algebra::SparseRows& functions = (*coupling_.coarse)[level];
     std::vector<int> parent(static_cast<std::size_t>(nodes(level)), -1);
     std::vector<double> greatest(parent.size(), 0);
     each_row(level, [&](int node, int row) {
       for (algebra::SparseRows::InnerIterator it(functions, row); it; ++it)
-        if (std::abs(it.value()) > greatest[node] * (1 + 1e-12)) greatest[node] = std::abs(it.value()), parent[node] = static_cast<int>(it.col()) / matrix_.dimension;
+        if (std::abs(it.value()) > greatest[node] * (1 + 1e-12)) greatest[node] = std::abs(it.value()), parent[node] = static_cast<int>(it.col()) / coupling_.dimension;
     });
     for (std::size_t node = 0; node < parent.size(); ++node)
       if (parent[node] < 0) parent[node] = node > 0 ? parent[node - 1] : 0;
@@ -113,19 +113,17 @@ class Sharing {
   /// Functions that meet at a node of the finer mesh are neighbours.
   template <class Edge>
   void functions_meet(int level, Edge& edge) const {
-    const algebra::SparseRows& functions = (*matrix_.coarse)[level - 1];
+    const algebra::SparseRows& functions = (*coupling_.coarse)[level - 1];
     each_row(level - 1, [&](int, int row) {
       for (algebra::SparseRows::InnerIterator a(functions, row); a; ++a)
         for (algebra::SparseRows::InnerIterator b(functions, row); b && b.col() < a.col(); ++b)
-          edge(static_cast<int>(a.col()) / matrix_.dimension, static_cast<int>(b.col()) / matrix_.dimension);
+          edge(static_cast<int>(a.col()) / coupling_.dimension, static_cast<int>(b.col()) / coupling_.dimension);
     });
   }
   template <class Edge>
-  void matrix_meets(Edge& edge) const {
-    const algebra::SparseMatrix& K = matrix_.displaced ? *matrix_.displaced : matrix_.lower;
+  void nodes_meet(Edge& edge) const {
     const std::vector<int> node = node_of_unknowns();
-    for (int b = 0; b < nodes(0); ++b)
-      for (int k = K.outerIndexPtr()[first_[b]]; k < K.outerIndexPtr()[first_[b] + 1]; ++k) edge(b, node[K.innerIndexPtr()[k]]);
+    coupling_.each_pair([&](int i, int j) { edge(node[i], node[j]); });
   }
   /// Unknowns that a row of an interface couples are kept together: less is exchanged then, and an exact solution at unknowns that share stiffness stays on one rank.
   template <class Edge>
@@ -148,10 +146,10 @@ class Sharing {
   /// Calls visit(node, node) for the first node of each row with all of them.
   template <class Visit>
   void each_coupled(const Visit& visit) const {
-    if (!matrix_.rows) return;
+    if (!coupling_.rows) return;
     const std::vector<int> node = node_of_unknowns();
-    for (int r = 0; r < matrix_.rows->rows(); ++r)
-      for (algebra::SparseRows::InnerIterator first(*matrix_.rows, r), it = first; it; ++it) visit(node[first.col()], node[it.col()]);
+    for (int r = 0; r < coupling_.rows->rows(); ++r)
+      for (algebra::SparseRows::InnerIterator first(*coupling_.rows, r), it = first; it; ++it) visit(node[first.col()], node[it.col()]);
   }
   std::vector<int> node_of_unknowns() const {
     std::vector<int> node;
@@ -159,7 +157,7 @@ class Sharing {
     return node;
   }
 
-  const Matrix& matrix_;
+  const Coupling& coupling_;
   const std::vector<int>& first_;
   const int ranks_;
   std::vector<std::vector<int>> of_;
@@ -167,13 +165,13 @@ class Sharing {
 
 }  // namespace
 
-Numbering::Numbering(const Matrix& matrix, int ranks) {
+Numbering::Numbering(const Coupling& coupling, int ranks) {
   std::vector<int> first;  // unknown of each node
-  for (std::size_t i = 0; i < matrix.node.size(); ++i)
-    if (i == 0 || matrix.node[i] != matrix.node[i - 1]) first.push_back(static_cast<int>(i));
-  first.push_back(static_cast<int>(matrix.node.size()));
+  for (std::size_t i = 0; i < coupling.node.size(); ++i)
+    if (i == 0 || coupling.node[i] != coupling.node[i - 1]) first.push_back(static_cast<int>(i));
+  first.push_back(static_cast<int>(coupling.node.size()));
   for (std::size_t b = 0; b + 1 < first.size(); ++b) block_ = std::max(block_, first[b + 1] - first[b]);
-  const Sharing sharing(matrix, first, ranks);
+  const Sharing sharing(coupling, first, ranks);
   const std::vector<int> finest = numbers_by_rank(sharing.of(0), ranks, first_.emplace_back());
   for (std::size_t b = 0; b + 1 < first.size(); ++b) {
     const int begin = finest[b] * block_, used = first[b + 1] - first[b];
@@ -182,12 +180,12 @@ Numbering::Numbering(const Matrix& matrix, int ranks) {
   }
   for (int& f : first_[0]) f *= block_;
   take_unknowns();
-  for (std::size_t l = 1; matrix.coarse && l <= matrix.coarse->size(); ++l) {
+  for (std::size_t l = 1; coupling.coarse && l <= coupling.coarse->size(); ++l) {
     const std::vector<int> number = numbers_by_rank(sharing.of(static_cast<int>(l)), ranks, first_.emplace_back());
     std::vector<int>& rows = functions_.emplace_back();
     for (const int n : number)
-      for (int k = 0; k < matrix.dimension; ++k) rows.push_back(n * matrix.dimension + k);
-    for (int& f : first_[l]) f *= matrix.dimension;
+      for (int k = 0; k < coupling.dimension; ++k) rows.push_back(n * coupling.dimension + k);
+    for (int& f : first_[l]) f *= coupling.dimension;
   }
 }
 
@@ -197,10 +195,6 @@ Numbering::Numbering(const Numbering& finer, const algebra::SparseRows& function
   for (Eigen::Index k = 0; k < functions.nonZeros(); ++k) used[functions.innerIndexPtr()[k]] = 1;
   for (std::size_t k = 0; k < used.size(); ++k) (used[k] ? slot_ : idle_).push_back(finer.functions_[0][k]);
   take_unknowns();
-}
-
-bool Numbering::shares_by_functions(const std::vector<algebra::SparseRows>& coarse, int dimension, int ranks) {
-  return !coarse.empty() && coarse.front().cols() / dimension >= kEnough * ranks;
 }
 
 void Numbering::take_unknowns() {

@@ -5,20 +5,28 @@
 
 #include "base/parallel.hpp"
 #include "multigrid/multigrid.hpp"
+#include "multigrid/slices.hpp"
 
 namespace dotyk::multigrid {
 
+/// What unknowns are shared out by.
+struct Coupling {
+  const std::vector<int>& node;                    ///< as in Matrix
+  const std::vector<algebra::SparseRows>* coarse;  ///< as in Matrix
+  int dimension;                                   ///< as in Matrix
+  const algebra::SparseRows* rows;                 ///< as in Matrix
+  const EachPair& each_pair;                       ///< of unknowns whose nodes are coupled
+};
+
 /// Numbers the rows of all levels. Unknowns come in blocks of one size, one block a node; a node of the finest level with fewer unknowns has idle rows
 /// beside them. The rows of a rank follow one another.
-/// METIS (Karypis, Kumar 1998) shares out the nodes of the coarsest mesh that has enough of them. A node of a finer mesh goes to the rank of the coarse node
-/// whose function is greatest there. Meshes that are coarser still belong to rank 0.
+/// METIS (Karypis, Kumar 1998) shares out the nodes of the coarsest mesh that has enough of them, else of the finest. A node of a finer mesh goes to the rank of
+/// the coarse node whose function is greatest there. Meshes that are coarser still belong to rank 0.
 class Numbering {
  public:
-  Numbering(const Matrix& matrix, int ranks);
+  Numbering(const Coupling& coupling, int ranks);
   /// Numbers the unknowns of PᵀKP, the matrix of the next coarser mesh: the functions that have entries. Each stays with the rank that it has in `finer`.
   Numbering(const Numbering& finer, const algebra::SparseRows& functions, int dimension);
-  /// Has a coarser mesh enough nodes? Else the nodes of the finest are shared out by the pattern of the matrix.
-  static bool shares_by_functions(const std::vector<algebra::SparseRows>& coarse, int dimension, int ranks);
 
   int block() const { return block_; }                                   ///< of the finest level
   const std::vector<int>& slot() const { return slot_; }                 ///< row of each unknown

@@ -76,11 +76,6 @@ void set_load(const Body& body, const Numbering& numbering, problem::Block& bloc
   take_load(body, elasticity::load(*body.mesh, body.material, body.facet_springs(), body.force, numbering), block);
 }
 
-/// Can ranks make the rows of K? Where there are coarser meshes.
-bool can_be_sliced(const problem::Problem& problem) {
-  return problem::coarser_meshes(problem) > 0 && multigrid::slices_pay_for(problem.unknowns());
-}
-
 /// What a rank assembles the flagged rows from.
 Share share_of_all(const Model& model, const std::vector<std::vector<elasticity::FacetSpring>>& springs, const std::vector<char>& own) {
   std::vector<Share> of_bodies;
@@ -94,15 +89,28 @@ Share share_of_all(const Model& model, const std::vector<std::vector<elasticity:
   return elasticity::joined(std::move(of_bodies));
 }
 
-/// K of all bodies in slices; false where the nodes of coarser meshes are too few.
-bool assemble_slices(Model& model) {
+/// Calls visit(unknown, unknown) for pairs of nodes of a cell, one unknown of each.
+void each_pair_of_cells(const Model& model, const std::function<void(int, int)>& visit) {
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const mesh::Mesh& mesh = *model.bodies[b].mesh;
+    const elasticity::Numbering& numbering = model.numbering[b];
+    std::vector<int> unknown(static_cast<std::size_t>(mesh.node_count()), -1);  // of each node
+    for (int i = 0; i < numbering.count(); ++i) unknown[numbering.node[i]] = model.problem.blocks[b].first + i;
+    for (int c = 0; c < mesh.cell_count(); ++c)
+      for (int k = 0; k < mesh::nodes_of(mesh.element); ++k)
+        for (int l = 0; l < k; ++l)
+          if (const int i = unknown[mesh.cell(c)[k]], j = unknown[mesh.cell(c)[l]]; i >= 0 && j >= 0) visit(i, j);
+  }
+}
+
+/// K of all bodies in slices.
+void assemble_slices(Model& model) {
   problem::Problem& problem = model.problem;
   std::vector<std::vector<elasticity::FacetSpring>> springs;
   for (const Body& body : model.bodies) springs.push_back(body.facet_springs());
-  const auto slices = multigrid::make_slices({problem::nodes(problem), problem::coarse_functions(problem), problem.blocks[0].coarse.dimension, problem.B,
-                                              [&](const std::vector<char>& own) { return share_of_all(model, springs, own); }, elasticity::assemble_share});
-  if (slices) take_slices(problem, slices);
-  return slices != nullptr;
+  take_slices(problem, multigrid::make_slices({problem::nodes(problem), problem::coarse_functions(problem), problem.blocks[0].coarse.dimension, problem.B,
+                                               [&](const auto& visit) { each_pair_of_cells(model, visit); },
+                                               [&](const std::vector<char>& own) { return share_of_all(model, springs, own); }, elasticity::assemble_share}));
 }
 
 /// K, f and the offset.
@@ -228,9 +236,8 @@ Model build(const Scene& scene, problem::Clock& clock, Monitor& monitor, const L
   }
   monitor.check();
   set_rows(scene, loading, model);
-  const bool may_be_sliced = slices && can_be_sliced(model.problem) && slices(model.problem);
-  if (may_be_sliced) monitor.phase(text("assembling (", model.problem.unknowns(), " unknowns)"));
-  const bool in_slices = may_be_sliced && assemble_slices(model);
+  const bool in_slices = slices && multigrid::slices_pay_for(model.problem.unknowns()) && slices(model.problem);
+  if (in_slices) monitor.phase(text("assembling (", model.problem.unknowns(), " unknowns)")), assemble_slices(model);
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     const Body& body = model.bodies[b];
     problem::Block& block = model.problem.blocks[b];

@@ -329,7 +329,7 @@ MakeSpdSolver multigrid(Levels levels, double most_iterations) {
     if (!other_signs) return solver;
     return std::make_unique<SignedSolver>(s.basis.signs, std::move(solver));
   };
-  return {make, levels == Levels::meshes};  // ranks share out a matrix for aggregates by its pattern
+  return {make, true};
 }
 
 }  // namespace dotyk::solver
