@@ -190,6 +190,23 @@ SparseMatrix lower_sum(const SparseMatrix& A, const SparseMatrix& B) {
 SparseMatrix congruent(const SparseMatrix& lower, const SparseMatrix& P) { return congruent(lower, P, SparseRows(P)); }
 SparseMatrix congruent(const SparseMatrix& lower, const SparseRows& P) { return congruent(lower, SparseMatrix(P), P); }
 
+StoredMatrix block_diagonal(const std::vector<const SparseMatrix*>& blocks) {
+  Eigen::Index size = 0, entries = 0;
+  for (const SparseMatrix* block : blocks) size += block->rows(), entries += block->nonZeros();
+  StoredMatrix all;
+  all.resize(size, size), all.resizeNonZeros(entries);
+  int first = 0, before = 0;
+  for (const SparseMatrix* block : blocks) {
+    const auto count = static_cast<int>(block->nonZeros());
+    const int *rows = block->innerIndexPtr(), *starts = block->outerIndexPtr();
+    std::transform(rows, rows + count, all.innerIndexPtr() + before, [&](int row) { return first + row; });
+    std::copy_n(block->valuePtr(), count, all.valuePtr() + before);
+    std::transform(starts + 1, starts + block->cols() + 1, all.outerIndexPtr() + first + 1, [&](int end) { return before + end; });
+    first += static_cast<int>(block->cols()), before += count;
+  }
+  return all;
+}
+
 SparseMatrix part_of(const SparseMatrix& from, const std::vector<int>& place, const std::vector<int>& columns) {
   const auto count = static_cast<Eigen::Index>(columns.size());
   const int rows = place.empty() ? 0 : *std::ranges::max_element(place) + 1;

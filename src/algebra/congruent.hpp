@@ -10,6 +10,9 @@ namespace dotyk::algebra {
 /// then most of the time goes into copies where matrices are large.
 SparseMatrix lower_sum(const SparseMatrix& A, const SparseMatrix& B);
 
+/// Of square matrices that with these blocks.
+StoredMatrix block_diagonal(const std::vector<const SparseMatrix*>& blocks);
+
 /// Some columns of a matrix, ascending. `place`: of each row its number among those of the part, ascending; −1: it is left out.
 SparseMatrix part_of(const SparseMatrix& from, const std::vector<int>& place, const std::vector<int>& columns);
 

@@ -4,6 +4,7 @@
 #include <iterator>
 #include <utility>
 
+#include "algebra/congruent.hpp"
 #include "base/memory.hpp"
 #include "mesh/submesh.hpp"
 
@@ -85,24 +86,6 @@ algebra::StoredMatrix assemble_body(Lists lists) {
   return assemble(mesh, MaterialField(lists), springs, {}, number(mesh, {fixed.begin(), fixed.end()}, std::vector<double>(fixed.size(), 0.0))).K;
 }
 
-/// Of lower triangles that of the matrix with these blocks.
-algebra::StoredMatrix block_diagonal(std::vector<algebra::StoredMatrix> blocks) {
-  if (blocks.size() == 1) return std::move(blocks[0]);
-  Eigen::Index size = 0, entries = 0;
-  for (const auto& block : blocks) size += block.rows(), entries += block.nonZeros();
-  algebra::StoredMatrix all;
-  all.resize(size, size), all.resizeNonZeros(entries);
-  int first = 0, before = 0;
-  for (const auto& block : blocks) {
-    const auto count = static_cast<int>(block.nonZeros());
-    std::transform(block.innerIndexPtr(), block.innerIndexPtr() + count, all.innerIndexPtr() + before, [&](int row) { return first + row; });
-    std::copy_n(block.valuePtr(), count, all.valuePtr() + before);
-    std::transform(block.outerIndexPtr() + 1, block.outerIndexPtr() + block.cols() + 1, all.outerIndexPtr() + first + 1, [&](int end) { return before + end; });
-    first += static_cast<int>(block.cols()), before += count;
-  }
-  return all;
-}
-
 }  // namespace
 
 algebra::StoredMatrix assemble_share(Lists lists) {
@@ -116,7 +99,10 @@ algebra::StoredMatrix assemble_share(Lists lists) {
     std::move(real, real + sizes[k + 1], std::back_inserter(body.real)), real += sizes[k + 1];
     blocks.push_back(assemble_body(std::move(body)));
   }
-  return block_diagonal(std::move(blocks));
+  if (blocks.size() == 1) return std::move(blocks[0]);
+  std::vector<const algebra::SparseMatrix*> all;
+  for (const auto& block : blocks) all.push_back(&block);
+  return algebra::block_diagonal(all);
 }
 
 }  // namespace dotyk::elasticity

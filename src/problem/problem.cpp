@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algebra/block_of_slices.hpp"
+#include "algebra/congruent.hpp"
 #include "algebra/dense/generalised_inverse.hpp"
 #include "base/error.hpp"
 #include "base/moderate.hpp"
@@ -138,21 +140,16 @@ const algebra::SlicedMatrix* slices(const Problem& problem) {
     if (!part || part->first() != block.first || (all && all != &part->whole())) return nullptr;
     all = &part->whole();
   }
-  return all;
+  return all && all->diagonal().size() == problem.unknowns() ? all : nullptr;
 }
 
 SparseMatrix lower_stiffness(const Problem& problem) {
   if (problem.blocks.size() == 1) return problem.blocks.front().K;
-  Eigen::Index entries = 0;
-  for (const Block& block : problem.blocks) entries += block.K.lower().nonZeros();
-  SparseMatrix all(problem.unknowns(), problem.unknowns());
-  all.reserve(entries);
-  for (const Block& block : problem.blocks)
-    for (int j = 0; j < block.size(); ++j) {
-      all.startVec(block.first + j);
-      for (SparseMatrix::InnerIterator it(block.K.lower(), j); it; ++it) all.insertBack(block.first + it.row(), block.first + j) = it.value();
-    }
-  all.finalize();
+  std::vector<const SparseMatrix*> blocks;
+  for (const Block& block : problem.blocks) blocks.push_back(&block.K.lower());
+  algebra::StoredMatrix joined = algebra::block_diagonal(blocks);
+  SparseMatrix all;
+  all.swap(joined);
   return all;
 }
 

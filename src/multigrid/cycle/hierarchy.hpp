@@ -33,7 +33,7 @@ class Hierarchy {
  private:
   /// Takes the entries. False where a number of the diagonal is not positive.
   bool take(const Change& change);
-  void make_room_for(const Change& change);
+  void make_room_for(const Change& change);  ///< in the pattern of the finest matrix
   void add_level(HalfMatrix matrix) { matrices_.push_back(std::make_shared<HalfMatrix>(std::move(matrix))); }
   OwnedMat oblong(Rows& rows, int own_columns, std::array<int, 2> blocks);
   void coarsen(const Change& beside, const Change& first);

@@ -22,6 +22,7 @@ class LentMatrix {
   LentMatrix& operator=(const LentMatrix&) = delete;
 
   HalfMatrix& now() { return matrix_; }  ///< as the solver has it; its pattern may be widened before the first change()
+  /// For the solver. A place may be named twice, with one number.
   void change(std::vector<Number> numbers) {
     std::ranges::sort(numbers);
     numbers.erase(std::ranges::unique(numbers).begin(), numbers.end());
