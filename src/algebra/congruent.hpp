@@ -10,7 +10,7 @@ namespace dotyk::algebra {
 /// then most of the time goes into copies where matrices are large.
 SparseMatrix lower_sum(const SparseMatrix& A, const SparseMatrix& B);
 
-/// Of square matrices that with these blocks.
+/// The matrix with these square blocks on its diagonal, in their order. They are compressed.
 StoredMatrix block_diagonal(const std::vector<const SparseMatrix*>& blocks);
 
 /// Some columns of a matrix, ascending. `place`: of each row its number among those of the part, ascending; −1: it is left out.
@@ -19,7 +19,7 @@ SparseMatrix part_of(const SparseMatrix& from, const std::vector<int>& place, co
 /// PᵀAP, m × m, of a symmetric A, n × n, for P, n × m. `lower` has no entries above the diagonal; nor has the result, whose columns are sorted.
 SparseMatrix congruent(const SparseMatrix& lower, const SparseMatrix& P);
 SparseMatrix congruent(const SparseMatrix& lower, const SparseRows& P);
-/// The same where `lower` has entries in few rows and columns: takes no other rows of P, and time as these.
+/// The same where `lower` has entries in few rows and columns: it looks at all columns of P, but computes with these rows alone.
 StoredMatrix congruent_near(const SparseMatrix& lower, const SparseMatrix& P);
 
 }  // namespace dotyk::algebra

@@ -13,7 +13,7 @@ namespace dotyk::algebra {
 
 using LongVector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
 
-/// A symmetric matrix whose rows are distributed over several processes. Products and entries are asked of them.
+/// A symmetric matrix whose rows are distributed over processes, or one has them all. Products and entries are asked of them.
 class SlicedMatrix {
  public:
   virtual ~SlicedMatrix() = default;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "algebra/congruent.hpp"
+#include "base/error.hpp"
 #include "base/memory.hpp"
 #include "mesh/submesh.hpp"
 
@@ -71,7 +72,7 @@ algebra::StoredMatrix assemble_body(Lists lists) {
   mesh::Mesh mesh;
   mesh.element = static_cast<mesh::Element>(lists.whole[kElement][0]);
   mesh.coordinates.swap(lists.real[kCoordinates]), mesh.cells.swap(lists.whole[kCells]);
-  require_memory(2 * matrix_bytes(mesh), "a rank's share of the stiffness");
+  require_memory(2 * matrix_bytes(mesh), "a share of the stiffness");
   const std::vector<int>& facets = lists.whole[kSpringFacets];
   std::vector<FacetSpring> springs;
   for (std::size_t k = 0; k < facets.size(); k += 2) {
@@ -101,7 +102,10 @@ algebra::StoredMatrix assemble_share(Lists lists) {
   }
   if (blocks.size() == 1) return std::move(blocks[0]);
   std::vector<const algebra::SparseMatrix*> all;
-  for (const auto& block : blocks) all.push_back(&block);
+  double entries = 0;
+  for (const auto& block : blocks) all.push_back(&block), entries += static_cast<double>(block.nonZeros());
+  if (entries > 2e9) throw InputError("a process would have more than 2e9 entries of the stiffness; use more processes, or coarser meshes");
+  require_memory(12 * entries, "the stiffness of several bodies");
   return algebra::block_diagonal(all);
 }
 

@@ -1,4 +1,4 @@
-// Opens the library with PETSc when the first solver is made: linked to it, the program would start its MPI as well.
+// Opens the library with PETSc when the first slices or the first solver are made: linked to it, the program would start its MPI as well.
 #include <dlfcn.h>
 
 #include <atomic>
@@ -54,8 +54,12 @@ std::unique_ptr<algebra::SpdSolver> make_solver(const Matrix& matrix, Monitor& m
 
 bool slices_pay_for(double unknowns) {
   constexpr double kMany = 50'000;  // for one process
-  if (count_ranks() == 1) return unknowns >= kMany && available();
-  return door<bool(double)>("dotyk_multigrid_share")(unknowns);
+  if (count_ranks() == 1 && (unknowns < kMany || !available())) return false;
+  try {
+    return door<bool(double)>("dotyk_multigrid_share")(unknowns) || count_ranks() == 1;
+  } catch (const std::exception&) {
+    return false;  // the solver says why
+  }
 }
 
 std::shared_ptr<const algebra::SlicedMatrix> make_slices(const Shared& matrix) {

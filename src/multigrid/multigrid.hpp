@@ -1,5 +1,5 @@
 // Conjugate gradients preconditioned by multigrid. The library that does it needs PETSc and MPI, and is opened when the first
-// solver is made.
+// solver or the first slices are made.
 #pragma once
 
 #include <functional>

@@ -17,8 +17,8 @@ namespace {
 
 Numbering numbered(const Matrix& matrix, int ranks) {
   const EachPair each_pair = [&, &K = matrix.displaced ? *matrix.displaced : matrix.lower](const auto& visit) {
-    for (int j = 0; j < K.cols(); ++j)
-      for (algebra::SparseMatrix::InnerIterator it(K, j); it; ++it) visit(static_cast<int>(it.row()), j);
+    for (int j = 0; j < K.cols(); ++j)  // the first of each node
+      for (algebra::SparseMatrix::InnerIterator it(K, j); it && (j == 0 || matrix.node[j] != matrix.node[j - 1]); ++it) visit(static_cast<int>(it.row()), j);
   };
   return {{matrix.node, matrix.coarse, matrix.dimension, matrix.rows, each_pair}, ranks};
 }

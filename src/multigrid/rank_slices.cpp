@@ -253,12 +253,9 @@ algebra::StoredMatrix RankSlices::near(std::vector<char>& of, int layers) const 
   std::vector<int> outermost;
   for (std::size_t i = 0; i < of.size(); ++i)
     if (of[i]) outermost.push_back(static_cast<int>(i));
-  if (outermost.size() == of.size()) {
-    if (entries_ > std::numeric_limits<int>::max())
-      throw InputError(text("the stiffness has ", entries_, " entries, too many to be put together from those of ", workers_.ranks().count(),
-                            " ranks; dotyk.solver.multigrid{} does without"));
-    require_memory(18 * entries_, "the stiffness, put together from those of all ranks,");  // all entries, and 12 bytes for each of half of them
-  }
+  if (const double entries = entries_ * static_cast<double>(outermost.size()) / static_cast<double>(of.size()); entries > std::numeric_limits<int>::max())
+    throw InputError(text("the stiffness has ", entries, " entries, too many to be put together; dotyk.solver.multigrid{} does without"));
+  else require_memory(18 * entries, "the stiffness, put together from its slices,");  // all entries, and 12 bytes for each of half of them
   std::vector<Asked> all;
   for (;; --layers) {
     all.push_back(ask(outermost));

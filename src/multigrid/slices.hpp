@@ -13,7 +13,7 @@ namespace dotyk::multigrid {
 /// Assembles the lower triangle of a share's matrix.
 using Assemble = algebra::StoredMatrix (*)(Lists lists);
 
-/// Calls visit(i, j) for pairs, some of them several times.
+/// Calls visit(i, j) for pairs, some of them several times. It is called twice and gives the same pairs.
 using EachPair = std::function<void(const std::function<void(int, int)>& visit)>;
 
 /// A symmetric matrix that is to be assembled. Nothing of it is kept.

@@ -146,8 +146,11 @@ const algebra::SlicedMatrix* slices(const Problem& problem) {
 SparseMatrix lower_stiffness(const Problem& problem) {
   if (problem.blocks.size() == 1) return problem.blocks.front().K;
   std::vector<const SparseMatrix*> blocks;
-  for (const Block& block : problem.blocks) blocks.push_back(&block.K.lower());
-  algebra::StoredMatrix joined = algebra::block_diagonal(blocks);
+  std::vector<char> of(static_cast<std::size_t>(problem.unknowns()), 1);
+  const auto* sliced = slices(problem);
+  for (const Block& block : problem.blocks)
+    if (!sliced) blocks.push_back(&block.K.lower());
+  algebra::StoredMatrix joined = sliced ? sliced->near(of) : algebra::block_diagonal(blocks);
   SparseMatrix all;
   all.swap(joined);
   return all;

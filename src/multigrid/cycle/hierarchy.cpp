@@ -236,7 +236,7 @@ void Hierarchy::make_room_for(const Change& change) {
   std::vector<std::array<int, 2>> missing;
   for (std::size_t e = 0; e < change.values.size(); ++e)
     if (!A.find(change.rows[e] - A.first_row(), change.columns[e])) missing.push_back({change.rows[e] / A.block(), change.columns[e] / A.block()});
-  if (!ranks_.all(missing.empty())) A = HalfMatrix(ranks_, widened(A.take(), missing));
+  if (!ranks_.all(missing.empty())) A = HalfMatrix(ranks_, widened(A.stored(), missing));
 }
 
 bool Hierarchy::take(const Change& change) {

@@ -34,7 +34,7 @@ HalfRows::Place HalfRows::place(int row, int column) {
   return out;
 }
 
-HalfRows widened(HalfRows rows, const std::vector<std::array<int, 2>>& pairs) {
+HalfRows widened(const HalfRows& rows, const std::vector<std::array<int, 2>>& pairs) {
   const int count = rows.nodes(), first = rows.first;
   const Buckets more(count, [&](auto&& put) {
     for (const auto& [a, b] : pairs) {
@@ -61,7 +61,7 @@ HalfRows widened(HalfRows rows, const std::vector<std::array<int, 2>>& pairs) {
         std::copy_n(numbers.begin() + k * square, square, to.begin() + at * square);
       }
   };
-  wider.diagonal = std::move(rows.diagonal);
+  wider.diagonal = rows.diagonal;
   copy(rows.starts, rows.columns, rows.below, wider.starts, wider.columns, wider.below);
   copy(rows.other_starts, rows.others, rows.other, wider.other_starts, wider.others, wider.other);
   return wider;

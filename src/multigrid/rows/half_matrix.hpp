@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "base/buckets.hpp"
@@ -44,7 +43,7 @@ struct HalfRows {
 };
 
 /// The same with zeros for these pairs of coupled nodes, too.
-HalfRows widened(HalfRows rows, const std::vector<std::array<int, 2>>& pairs);
+HalfRows widened(const HalfRows& rows, const std::vector<std::array<int, 2>>& pairs);
 
 /// Zeros, with room for the pairs of coupled nodes: pairs(visit) calls visit(node, node), in any order and some of them several times. It is called twice.
 template <class Pairs>
@@ -63,7 +62,6 @@ class HalfMatrix {
 
   const Ranks& ranks() const { return ranks_; }
   const HalfRows& stored() const { return rows_; }
-  HalfRows take() { return std::move(rows_); }  ///< the matrix may only be assigned to, or destroyed, afterwards
   int block() const { return rows_.block; }    ///< rows of a node
   int nodes() const { return rows_.nodes(); }  ///< own ones
   int rows() const { return nodes() * block(); }

@@ -24,11 +24,12 @@ class LentMatrix {
   HalfMatrix& now() { return matrix_; }  ///< as the solver has it; its pattern may be widened before the first change()
   /// For the solver. A place may be named twice, with one number.
   void change(std::vector<Number> numbers) {
-    std::ranges::sort(numbers);
-    numbers.erase(std::ranges::unique(numbers).begin(), numbers.end());
-    for (auto& [place, number] : numbers) std::swap(*place, number);  // now the numbers before
-    std::vector<Number> all;
-    std::ranges::set_union(before_, numbers, std::back_inserter(all), {}, &Number::first, &Number::first);  // of one place the elder number
+    std::ranges::sort(numbers, {}, &Number::first);
+    numbers.erase(std::ranges::unique(numbers, {}, &Number::first).begin(), numbers.end());
+    std::vector<Number> now = numbers, all;
+    for (auto& [place, number] : now) number = *place;
+    std::ranges::set_union(before_, now, std::back_inserter(all), {}, &Number::first, &Number::first);  // of one place the elder number
+    for (const auto& [place, number] : numbers) *place = number;
     std::erase_if(all, [](const Number& n) { return *n.first == n.second; });
     before_.swap(all);
   }

@@ -80,7 +80,7 @@ std::vector<double> spread(const elasticity::Numbering& numbering, const algebra
 /// Assembles. Throws InputError for contradictory supports, for a contact that nodes fixed on both sides
 /// make impossible, for a body whose supports are lost in rounding beside its stiffness, and, with rows or subdomains, as
 /// problem::require_moderate(). Adds its time to clock.assembly. With a `decomposition` the bodies are also cut into subdomains by it: see cut().
-/// `slices` decides whether several ranks may assemble K, each its own rows. It is asked when everything except K and f is known. Empty: they may not.
+/// `slices` decides whether K may be in slices: each rank assembles its own rows. It is asked when everything except K and f is known. Empty: they may not.
 Model build(const Scene& scene, problem::Clock& clock, Monitor& monitor, const Loading& loading = {},
             const std::optional<problem::Decomposition>& decomposition = {}, const std::function<bool(const problem::Problem&)>& slices = {});
 /// "'b1' is nearly free: …" of the first three such bodies, and how many more there are.

@@ -48,7 +48,7 @@ HeldStiffness::HeldStiffness(const Problem& problem, const RigidMotions& rigid, 
     : problem_(problem), basis_(problem::row_basis(problem)), unnoticed_(problem::unnoticed_displacements(problem, rigid)), rows_(basis_.times(problem.B)),
       fixing_(algebra::fixing_unknowns(unnoticed_)) {
   rows_.prune([](auto, auto, double value) { return std::abs(value) > 1e-14; });
-  assemble(make.takes_slices);
+  assemble(make.takes_slices, rigid);
   held_.assign(problem.unknowns(), 0);
   watched_ = held_;
   std::vector<char> may_be_held = held_;
@@ -59,11 +59,11 @@ HeldStiffness::HeldStiffness(const Problem& problem, const RigidMotions& rigid, 
   if (rigid.noticed.cols() > 0) spring_rows(problem.row_stiffness());
   std::vector<Entry> first = now();
   solver_ = make.make({lower(), numbers(first), problem, basis_, monitor, nested, slices_, beside_});
-  beside_ = {};
+  algebra::Triplets().swap(beside_);
   told_ = std::move(first);
 }
 
-void HeldStiffness::assemble(bool takes_slices) {
+void HeldStiffness::assemble(bool takes_slices, const RigidMotions& rigid) {
   algebra::Triplets entries;  // of rows, and of the diagonal where K has no entry there: zeros in the pattern
   for (int r = 0; r < problem_.rows(); ++r)
     for (SparseRows::InnerIterator i(rows_, r); i; ++i)
@@ -73,7 +73,7 @@ void HeldStiffness::assemble(bool takes_slices) {
     if (a >= 0 && b >= 0) entries.emplace_back(std::max(a, b), std::min(a, b), 0.0);
   }
   if (takes_slices) slices_ = problem::slices(problem_);
-  if (slices_) return assemble_near_rows(entries);
+  if (slices_) return assemble_near_rows(entries, rigid);
   const bool alone = problem_.blocks.size() == 1;
   for (const problem::Block& block : problem_.blocks)
     for (int j = 0; j < block.size(); ++j)
@@ -89,7 +89,13 @@ void HeldStiffness::assemble(bool takes_slices) {
   lower_ = basis_.of_signs() ? with_signs(std::move(A), basis_) : std::move(A);
 }
 
-void HeldStiffness::assemble_near_rows(const algebra::Triplets& room) {
+std::vector<int> HeldStiffness::fixing_noticed(const RigidMotions& rigid) const {
+  if (rigid.noticed.cols() == 0) return {};
+  const SparseMatrix motions = problem::displacement(problem_, rigid.noticed);
+  return algebra::fixing_unknowns(basis_.trivial() ? motions : SparseMatrix(basis_.of_displacements(problem_) * motions));
+}
+
+void HeldStiffness::assemble_near_rows(const algebra::Triplets& room, const RigidMotions& rigid) {
   std::vector<char> of(static_cast<std::size_t>(problem_.unknowns()), 0);
   for (Eigen::Index j = 0; j < basis_.T.cols(); ++j) {  // of other columns TᵀKT has K's entries
     const SparseMatrix::InnerIterator first(basis_.T, j);
@@ -99,6 +105,7 @@ void HeldStiffness::assemble_near_rows(const algebra::Triplets& room) {
   moves_others_alone_ = basis_.T.rows() > 0 && (basis_.T.diagonal().array() == 0).any();
   for (const auto& entry : room) of[entry.row()] = of[entry.col()] = 1;
   for (const int unknown : fixing_) of[unknown] = 1;
+  for (const int unknown : fixing_noticed(rigid)) of[unknown] = 1;
   StoredMatrix A = near_from_slices(of, 0);
   const bool has = has_room(A, room);
   if (!has) A = algebra::lower_sum(A, algebra::from_triplets(problem_.unknowns(), problem_.unknowns(), room));
@@ -309,17 +316,17 @@ MakeSpdSolver multigrid(Levels levels, double most_iterations) {
     auto coarse = levels == Levels::meshes ? problem::coarse_functions(s.problem) : std::vector<SparseRows>();
     const bool of_signs = s.basis.of_signs(), other_signs = of_signs && !s.basis.trivial();
     StoredMatrix K;
-    if (s.slices) {}
-    else if (!of_signs) K = problem::lower_stiffness(s.problem);
-    else if (other_signs) K = s.lower, K = with_signs(std::move(K), s.basis);
-    const auto of_K = [&](const algebra::Triplets& entries) { return other_signs ? SignedSolver::of_K(entries, s.basis.signs) : entries; };
-    const algebra::Triplets changed = of_K(s.changed), beside = of_K(s.beside_slices);
+    if (!s.slices && !of_signs) K = problem::lower_stiffness(s.problem);
+    else if (!s.slices && other_signs) K = s.lower, K = with_signs(std::move(K), s.basis);
+    algebra::Triplets changed, beside;
+    if (other_signs) changed = SignedSolver::of_K(s.changed, s.basis.signs), beside = SignedSolver::of_K(s.beside_slices, s.basis.signs);
     multigrid::Matrix matrix{other_signs && !s.slices ? K : s.lower, nodes, [&] {
                                DenseMatrix motions = all_rigid_motions(s.problem);
                                for (const SparseRows& functions : coarse) motions = problem::at_coarse(functions, motions);
                                return motions;
                              }};
-    matrix.rows = &s.problem.B, matrix.changed = &changed, matrix.slices = s.slices, matrix.beside_slices = &beside;
+    matrix.rows = &s.problem.B, matrix.changed = other_signs ? &changed : &s.changed;
+    matrix.slices = s.slices, matrix.beside_slices = other_signs ? &beside : &s.beside_slices;
     matrix.most_iterations = most_iterations;
     if (!coarse.empty()) matrix.coarse = &coarse, matrix.dimension = s.problem.blocks[0].coarse.dimension, matrix.coarser = s.nested ? &s.nested->stiffness : nullptr;
     const SparseMatrix unknowns = of_signs ? SparseMatrix() : s.basis.of_displacements(s.problem);
@@ -329,7 +336,7 @@ MakeSpdSolver multigrid(Levels levels, double most_iterations) {
     if (!other_signs) return solver;
     return std::make_unique<SignedSolver>(s.basis.signs, std::move(solver));
   };
-  return {make, true};
+  return {make, levels == Levels::meshes};  // aggregates of a mesh that has coarser ones: nested iteration wants the whole
 }
 
 }  // namespace dotyk::solver

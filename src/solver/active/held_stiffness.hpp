@@ -26,8 +26,8 @@ struct SpdSystem {
   const problem::RowBasis& basis;
   Monitor& monitor;  ///< outlives the solver
   Nested* nested;    ///< null: there is no nested iteration
-  const algebra::SlicedMatrix* slices = nullptr;  ///< K; null: there are none
-  const algebra::Triplets& beside_slices;  ///< entries that are not those of the slices
+  const algebra::SlicedMatrix* slices;     ///< K; null: there are none
+  const algebra::Triplets& beside_slices;  ///< entries of TᵀKT that differ from K's, where there are slices
 };
 struct MakeSpdSolver {
   std::function<std::unique_ptr<algebra::SpdSolver>(const SpdSystem&)> make;
@@ -85,6 +85,8 @@ class HeldStiffness {
   /// TᵀKT y at the unknowns that rows may hold; where y is zero but there, at all unknowns.
   algebra::Vector resistance_of_watched(const algebra::Vector& y) const;
 
+  /// Unknowns that hold the motions which rows notice, if they are held.
+  std::vector<int> fixing_noticed(const problem::RigidMotions& rigid) const;
   /// u without the motions that no row notices: solve() gives none of them.
   algebra::Vector without_unnoticed(const algebra::Vector& u) const { return problem::least(unnoticed_, u); }
 
@@ -100,9 +102,9 @@ class HeldStiffness {
 
   /// The lower triangle of TᵀKT; where rows couple unknowns its pattern has places, with zeros if need be. Of slices, all entries of unknowns of rows.
   const algebra::SparseMatrix& lower() const { return lower_.lower(); }
-  void assemble(bool takes_slices);
+  void assemble(bool takes_slices, const problem::RigidMotions& rigid);
   /// The part of assemble() where K is in slices. `room`: places that the pattern must have.
-  void assemble_near_rows(const algebra::Triplets& room);
+  void assemble_near_rows(const algebra::Triplets& room, const problem::RigidMotions& rigid);
   /// near() where K is in slices. Layers are of displacements: those that the flagged unknowns move, and their neighbours.
   algebra::StoredMatrix near_from_slices(std::vector<char>& of, int layers) const;
   void change(int row, int column, double by);

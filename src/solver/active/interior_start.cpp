@@ -48,7 +48,7 @@ LawsInUnits::LawsInUnits(const Problem& problem, const problem::RigidMotions& ri
 void LawsInUnits::measure(const Problem& problem, const problem::RigidMotions& rigid, HeldStiffness& stiffness) {
   const int rows = problem.rows();
   std::vector<char> held(problem.unknowns(), 0);
-  for (const int unknown : algebra::fixing_unknowns(algebra::SparseMatrix(stiffness.basis().of_displacements(problem) * problem::displacement(problem, rigid.noticed)))) held[unknown] = 1;
+  for (const int unknown : stiffness.fixing_noticed(rigid)) held[unknown] = 1;
   if (rows == 0 || !stiffness.factor(Vector::Zero(rows), held)) return;
   const auto moved = [&](const Vector& forces) { return (problem.B * stiffness.solve(forces)).lpNorm<Eigen::Infinity>(); };
   const double bent = moved(f), compliance = moved(problem.B.transpose() * Vector::Ones(rows));

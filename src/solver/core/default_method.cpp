@@ -166,7 +166,7 @@ Result solve(const problem::Problem& problem, const Method& method, Beginning fr
     const bool linear = problem.rows() == 0 && !method.takes_linear() && !method.decomposition();
     return linear ? solve_linear(problem, method.ordering(), monitor) : method.run(problem, std::move(from), monitor);
   }
-  if (!from.condenser && !condensed)
+  if (!from.condenser && !condensed && !slices(problem))  // whose blocks it would put together
     if (auto result = run_turned(problem, from, monitor)) return *std::move(result);
   const DefaultMethod by_default = default_method(problem);
   Result before;
