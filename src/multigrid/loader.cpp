@@ -54,11 +54,15 @@ std::unique_ptr<algebra::SpdSolver> make_solver(const Matrix& matrix, Monitor& m
 
 bool slices_pay_for(double unknowns) {
   constexpr double kMany = 50'000;  // for one process
-  if (count_ranks() == 1 && (unknowns < kMany || !available())) return false;
+  return count_ranks() == 1 ? unknowns >= kMany && available() : door<bool(double)>("dotyk_multigrid_share")(unknowns);
+}
+
+bool starts() {
   try {
-    return door<bool(double)>("dotyk_multigrid_share")(unknowns) || count_ranks() == 1;
+    door<void()>("dotyk_multigrid_start")();
+    return true;
   } catch (const std::exception&) {
-    return false;  // the solver says why
+    return false;
   }
 }
 

@@ -165,10 +165,10 @@ DOTYK_DOOR void dotyk_multigrid_end_ranks() { dotyk::multigrid::end_workers(); }
 DOTYK_DOOR void dotyk_multigrid_spawn(int ranks, const char* program) { dotyk::multigrid::spawn_workers(ranks, program); }
 DOTYK_DOOR int dotyk_multigrid_ranks() { return dotyk::multigrid::ranks_now(); }
 DOTYK_DOOR void dotyk_multigrid_work(bool spawned, dotyk::multigrid::Assemble assemble) { dotyk::multigrid::work(spawned, assemble); }
+DOTYK_DOOR void dotyk_multigrid_start() { dotyk::multigrid::start_petsc(); }
 DOTYK_DOOR bool dotyk_multigrid_share(double unknowns) { return dotyk::multigrid::several_ranks_have_work(unknowns); }
 DOTYK_DOOR dotyk::algebra::SlicedMatrix* dotyk_multigrid_slices(const dotyk::multigrid::Shared& matrix) {
   using namespace dotyk::multigrid;
-  start_petsc();
   const std::lock_guard lock(only_one());
   return new RankSlices(workers_for(static_cast<double>(matrix.node.size())), matrix);
 }

@@ -31,7 +31,9 @@ struct Shared {
 /// Several ranks share the work where each has enough to do. One process saves memory where there are many unknowns: solvers take the matrix of the slices on
 /// loan. False where the library was not built.
 bool slices_pay_for(double unknowns);
-/// Assembles the matrix on all ranks, each its own rows. To be called only where slices_pay_for() is true.
+/// Opens the library and starts PETSc. False where that fails: a solver says why.
+bool starts();
+/// Assembles the matrix on all ranks, each its own rows. To be called only where both are true.
 std::shared_ptr<const algebra::SlicedMatrix> make_slices(const Shared& matrix);
 
 }  // namespace dotyk::multigrid

@@ -129,6 +129,7 @@ problem::Problem coupled_cubes() {
 
 TEST_CASE("slices of several bodies, whose rows couple many displacements, give what the whole matrix gives") {
   if (test::not_built()) return;
+  REQUIRE(multigrid::starts());
   Monitor quiet;
   const problem::Problem whole = coupled_cubes();
   problem::Problem sliced = whole;

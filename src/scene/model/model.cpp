@@ -236,7 +236,7 @@ Model build(const Scene& scene, problem::Clock& clock, Monitor& monitor, const L
   }
   monitor.check();
   set_rows(scene, loading, model);
-  const bool in_slices = slices && multigrid::slices_pay_for(model.problem.unknowns()) && slices(model.problem);
+  const bool in_slices = slices && multigrid::slices_pay_for(model.problem.unknowns()) && slices(model.problem) && multigrid::starts();
   if (in_slices) monitor.phase(text("assembling (", model.problem.unknowns(), " unknowns)")), assemble_slices(model);
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     const Body& body = model.bodies[b];
