@@ -10,7 +10,7 @@
 
 namespace dotyk::algebra {
 
-/// Consecutive unknowns of another matrix which are coupled to no others: one body's.
+/// A diagonal block of a matrix in slices: the stiffness of one body, whose unknowns follow one another and are coupled to no others.
 class BlockOfSlices final : public SlicedMatrix {
  public:
   BlockOfSlices(std::shared_ptr<const SlicedMatrix> whole, Eigen::Index first, Eigen::Index size) : whole_(std::move(whole)), first_(first) {

@@ -190,11 +190,11 @@ SparseMatrix lower_sum(const SparseMatrix& A, const SparseMatrix& B) {
 SparseMatrix congruent(const SparseMatrix& lower, const SparseMatrix& P) { return congruent(lower, P, SparseRows(P)); }
 SparseMatrix congruent(const SparseMatrix& lower, const SparseRows& P) { return congruent(lower, SparseMatrix(P), P); }
 
-StoredMatrix block_diagonal(const std::vector<const SparseMatrix*>& blocks) {
+SparseMatrix block_diagonal(const std::vector<const SparseMatrix*>& blocks) {
   Eigen::Index size = 0, entries = 0;
   for (const SparseMatrix* block : blocks) size += block->rows(), entries += block->nonZeros();
-  StoredMatrix all;
-  all.resize(size, size), all.resizeNonZeros(entries);
+  SparseMatrix all(size, size);
+  all.resizeNonZeros(entries);
   int first = 0, before = 0;
   for (const SparseMatrix* block : blocks) {
     const auto count = static_cast<int>(block->nonZeros());

@@ -11,7 +11,7 @@ namespace dotyk::algebra {
 SparseMatrix lower_sum(const SparseMatrix& A, const SparseMatrix& B);
 
 /// The matrix with these square blocks on its diagonal, in their order. They are compressed.
-StoredMatrix block_diagonal(const std::vector<const SparseMatrix*>& blocks);
+SparseMatrix block_diagonal(const std::vector<const SparseMatrix*>& blocks);
 
 /// Some columns of a matrix, ascending. `place`: of each row its number among those of the part, ascending; −1: it is left out.
 SparseMatrix part_of(const SparseMatrix& from, const std::vector<int>& place, const std::vector<int>& columns);

@@ -26,8 +26,6 @@ class Assembly {
   }
 
   int threads() const { return threads_; }
-  /// Are all components of the node unknown?
-  bool free(int node) const { return count_[node] == dim_; }
 
   /// block(i, j) couples component i of node a to component j of node b; for a ≠ b it stands
   /// for both triangles, for a = b it is a full symmetric block.
@@ -57,6 +55,8 @@ class Assembly {
   algebra::StoredMatrix K;
 
  private:
+  /// Are all components of the node unknown?
+  bool free(int node) const { return count_[node] == dim_; }
   int unknown(int node, int i) const { return numbering_.unknown[static_cast<std::size_t>(node) * dim_ + i]; }
 
   void find_neighbours(const Mesh& mesh) {
@@ -164,9 +164,7 @@ double matrix_bytes(const Mesh& mesh) {
   return 12 * 0.5 * mesh.node_count() * dim * (dim * neighbours() + 1);
 }
 
-System assemble(const Mesh& mesh, const MaterialField& material,
-                const std::vector<FacetSpring>& springs, const std::vector<double>& force,
-                const Numbering& numbering) {
+algebra::StoredMatrix assemble(const Mesh& mesh, const MaterialField& material, const std::vector<FacetSpring>& springs, const Numbering& numbering) {
   Assembly assembly(mesh, numbering);
   dispatch(mesh.element, [&]<class E>() {
     add_stiffness<E>(mesh, material, assembly);
@@ -179,22 +177,19 @@ System assemble(const Mesh& mesh, const MaterialField& material,
           assembly.add(mesh.facet_node(spring.facet, a), mesh.facet_node(spring.facet, b),
                        [&](int i, int j) { return i == j ? k[i] * p.shape[a] * p.shape[b] * p.measure : 0.0; });
     });
-  System system = load(mesh, material, springs, force, numbering);
-  system.K = std::move(assembly.K);
-  return system;
+  return std::move(assembly.K);
 }
 
-System load(const Mesh& mesh, const MaterialField& material, const std::vector<FacetSpring>& springs, const std::vector<double>& force,
-            const Numbering& numbering) {
-  System system;
-  system.f = Vector::Zero(numbering.count());
+Load load(const Mesh& mesh, const MaterialField& material, const std::vector<FacetSpring>& springs, const std::vector<double>& force,
+          const Numbering& numbering) {
+  Load load{Vector(numbering.count())};
   const std::vector<double> held = internal_force(mesh, material, springs, numbering.prescribed);
   for (std::size_t k = 0; k < held.size(); ++k) {
     const double given = force.empty() ? 0 : force[k];
-    if (numbering.unknown[k] >= 0) system.f[numbering.unknown[k]] = given - held[k];
-    else system.offset += numbering.prescribed[k] * (0.5 * held[k] - given);
+    if (numbering.unknown[k] >= 0) load.f[numbering.unknown[k]] = given - held[k];
+    else load.offset += numbering.prescribed[k] * (0.5 * held[k] - given);
   }
-  return system;
+  return load;
 }
 
 algebra::SparseMatrix h1_gram(const Mesh& mesh, const Numbering& numbering, double length) {

@@ -41,25 +41,21 @@ struct FacetSpring {
 };
 
 /// ½ uᵀK u − fᵀu + offset is the body's energy, u its unknown components only.
-struct System {
-  algebra::StoredMatrix K;  ///< lower triangle, unknowns × unknowns
-  algebra::Vector f;        ///< unknowns; loads less what prescribed components pull
-  double offset = 0;        ///< energy of the prescribed components alone
+struct Load {
+  algebra::Vector f;  ///< unknowns; loads less what prescribed components pull
+  double offset = 0;  ///< energy of the prescribed components alone
 };
 
 /// Bytes of a lower triangle on all components, with as many couplings as a grid of these cells has.
 double matrix_bytes(const mesh::Mesh& mesh);
 
-/// Assembles a body's stiffness ∫ ε(v):c:ε(u) and springs. `force`: nodal loads,
-/// node × dimension. The pattern is made once from the mesh; entries are added
-/// in place (no triplets).
-System assemble(const mesh::Mesh& mesh, const MaterialField& material,
-                const std::vector<FacetSpring>& springs, const std::vector<double>& force,
-                const Numbering& numbering);
+/// Assembles K, a body's stiffness ∫ ε(v):c:ε(u) with springs: the lower triangle, unknowns × unknowns. The pattern is made once from the mesh; entries are
+/// added in place (no triplets).
+algebra::StoredMatrix assemble(const mesh::Mesh& mesh, const MaterialField& material, const std::vector<FacetSpring>& springs, const Numbering& numbering);
 
-/// The same without K.
-System load(const mesh::Mesh& mesh, const MaterialField& material, const std::vector<FacetSpring>& springs, const std::vector<double>& force,
-            const Numbering& numbering);
+/// `force`: nodal loads, node × dimension; empty: none.
+Load load(const mesh::Mesh& mesh, const MaterialField& material, const std::vector<FacetSpring>& springs, const std::vector<double>& force,
+          const Numbering& numbering);
 
 /// Springs as rows: ½ Σ k_q (Sv)_q² of the unknowns v is what assemble() makes of them.
 struct SpringRows {

@@ -84,7 +84,7 @@ algebra::StoredMatrix assemble_body(Lists lists) {
     }
   }
   const std::vector<int>& fixed = lists.whole[kFixed];
-  return assemble(mesh, MaterialField(lists), springs, {}, number(mesh, {fixed.begin(), fixed.end()}, std::vector<double>(fixed.size(), 0.0))).K;
+  return assemble(mesh, MaterialField(lists), springs, number(mesh, {fixed.begin(), fixed.end()}, std::vector<double>(fixed.size(), 0.0)));
 }
 
 }  // namespace
@@ -106,7 +106,9 @@ algebra::StoredMatrix assemble_share(Lists lists) {
   for (const auto& block : blocks) all.push_back(&block), entries += static_cast<double>(block.nonZeros());
   if (entries > 2e9) throw InputError("a process would have more than 2e9 entries of the stiffness; use more processes, or coarser meshes");
   require_memory(12 * entries, "the stiffness of several bodies");
-  return algebra::block_diagonal(all);
+  algebra::StoredMatrix joined;
+  joined = algebra::block_diagonal(all);
+  return joined;
 }
 
 }  // namespace dotyk::elasticity

@@ -8,12 +8,12 @@
 
 namespace dotyk::elasticity {
 
-/// The cells that have a node with a flagged unknown, their material, supports and springs: what is assembled are the lists of joined(). `own`: a flag for
+/// The cells that have a node with a flagged unknown, their material, supports and springs: assemble_share() takes the lists after joined(). `own`: a flag for
 /// each unknown of the body.
 Share share(const mesh::Mesh& mesh, const MaterialField& material, const std::vector<FacetSpring>& springs, const Numbering& numbering,
             const std::vector<char>& own);
 
-/// The shares of several bodies as one.
+/// Combines the shares of several bodies into one share.
 Share joined(std::vector<Share> of_bodies);
 
 /// The lower triangle of the stiffness of these cells, from the lists of joined(). In rows and columns of flagged unknowns its entries are those of the bodies'

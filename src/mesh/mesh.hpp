@@ -63,7 +63,7 @@ struct Mesh {
 /// d/dt of facet_area_vector() of a facet of order 1 where nodes move with the velocity V (node × dimension).
 Point facet_area_derivative(const Mesh& mesh, const std::vector<double>& V, Facet f);
 
-/// How many nodes each coarser mesh has that is known, the finest first.
+/// The number of nodes of each known coarser mesh, the finest of them first.
 std::vector<int> coarser_nodes(const Mesh& mesh);
 
 /// Node → the cells that have it, ascending.

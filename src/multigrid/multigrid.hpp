@@ -13,7 +13,7 @@
 
 namespace dotyk::multigrid {
 
-/// What a hierarchy is built from. Of it the hierarchy keeps the matrix of the slices alone, on loan.
+/// What a hierarchy is built from. It is needed only while the hierarchy is built; slices lend it their matrix for longer.
 struct Matrix {
   const algebra::SparseMatrix& lower;        ///< lower triangle, compressed, columns sorted, no unknown held; positive definite but for `changed`
   const std::vector<int>& node;              ///< of each unknown, ascending, as in problem::Block::node
@@ -29,7 +29,7 @@ struct Matrix {
   /// is no coarser mesh, and all levels are aggregates.
   const std::vector<algebra::SparseRows>* coarse = nullptr;
   int dimension = 3;
-  /// Receives the matrix of the next coarser mesh: PᵀKP, in slices except where several ranks would have too little work, where K is the matrix of displacements, SᵀAS for A = `lower` and S =
+  /// Receives the matrix of the next coarser mesh: PᵀKP, in slices except where several ranks would have too little work, where K is the matrix of displacements, that of the slices or SᵀAS for A = `lower` and S =
   /// `unknowns`, without `changed`, and P the first of `coarse` without its empty columns. It stays as it is where `coarse` is null. Null: nobody asks.
   algebra::SymmetricMatrix* coarser = nullptr;
   /// Rows of interfaces, of displacements: unknowns that one of them couples stay together where ranks share them out. Null: none.
@@ -39,7 +39,7 @@ struct Matrix {
   /// The matrix K of displacements as the ranks have it, by make_slices() from the same `node`, `coarse` and `rows`; of `lower` only the size counts then, and
   /// `displaced` is not needed. Null: `lower` is the matrix.
   const algebra::SlicedMatrix* slices = nullptr;
-  /// Entries of the matrix that are others than K's, as those of rows that have become unknowns. The pattern of K need not have them. Null: none.
+  /// Entries in which the matrix differs from K, as those of rows that have become unknowns. K's pattern may lack them. Null: none.
   const algebra::Triplets* beside_slices = nullptr;
   /// solve() gives up when its rate of convergence foretells that twelve digits will take so many more.
   double most_iterations = std::numeric_limits<double>::infinity();

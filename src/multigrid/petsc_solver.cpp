@@ -16,11 +16,13 @@ namespace dotyk::multigrid {
 namespace {
 
 Numbering numbered(const Matrix& matrix, int ranks) {
+  const std::vector<algebra::SparseRows> no_functions;
+  const algebra::SparseRows no_rows;
   const EachPair each_pair = [&, &K = matrix.displaced ? *matrix.displaced : matrix.lower](const auto& visit) {
     for (int j = 0; j < K.cols(); ++j)  // the first of each node
       for (algebra::SparseMatrix::InnerIterator it(K, j); it && (j == 0 || matrix.node[j] != matrix.node[j - 1]); ++it) visit(static_cast<int>(it.row()), j);
   };
-  return {{matrix.node, matrix.coarse, matrix.dimension, matrix.rows, each_pair}, ranks};
+  return {{matrix.node, matrix.coarse ? *matrix.coarse : no_functions, matrix.dimension, matrix.rows ? *matrix.rows : no_rows, each_pair}, ranks};
 }
 
 /// The solver as rank 0 has it. The other ranks have a Cycle each, and do what this one tells them.
@@ -31,15 +33,12 @@ class PetscSolver final : public algebra::SpdSolver {
         workers_(slices_ ? slices_->workers().next() : workers_for(static_cast<double>(matrix.lower.rows()))),
         numbering_(slices_ ? slices_->numbering() : std::make_shared<const Numbering>(numbered(matrix, workers_.ranks().count()))), sharing_(sharing_unknowns(matrix)) {
     const Ranks& ranks = workers_.ranks();
-    const Pieces pieces(matrix, *numbering_);
+    Pieces pieces(matrix, *numbering_, ranks.count());
     std::shared_ptr<const algebra::SlicedMatrix> coarser;
     ranks.together([&] {
-      const algebra::Triplets none;
-      const auto changes_by = [&](const algebra::Triplets* entries) { return changes(entries ? *entries : none, {}, {}, *numbering_, ranks.count()); };
-      std::vector<Change> beside = changes_by(matrix.beside_slices), first = changes_by(matrix.changed);
       const bool asked = matrix.coarser && geometric_;
       const Workers of_coarser = workers_.next();
-      cycle_ = std::make_unique<Cycle>(ranks, share_out(pieces, asked ? of_coarser.number() : 0, beside, first), beside[0], first[0]);
+      cycle_ = std::make_unique<Cycle>(ranks, share_out(pieces, asked ? of_coarser.number() : 0));
       if (asked)
         coarser = std::make_shared<const RankSlices>(of_coarser, Numbering(*numbering_, matrix.coarse->front(), matrix.dimension), cycle_->take_coarser());
     });
@@ -96,9 +95,9 @@ class PetscSolver final : public algebra::SpdSolver {
   }
 
  private:
-  /// Sends each other rank its piece, what is beside the slices, and its first changes; returns the piece of rank 0. `coarser`: as in Piece. Pieces are made in parallel, as many at a time as there are cores.
-  /// The first are made before the other ranks are told to begin, because a rank keeps a core busy while it waits for its piece.
-  Piece share_out(const Pieces& pieces, int coarser, std::vector<Change>& beside, std::vector<Change>& first) const {
+  /// Sends each other rank its piece; returns that of rank 0. `coarser`: as in Piece. Pieces are made in parallel, as many at a time as there are
+  /// cores. The first are made before the other ranks are told to begin, because a rank keeps a core busy while it waits for its piece.
+  Piece share_out(Pieces& pieces, int coarser) const {
     const Ranks& ranks = workers_.ranks();
     Piece own;
     for (int from = 0; from < ranks.count();) {
@@ -108,7 +107,7 @@ class PetscSolver final : public algebra::SpdSolver {
       for (Piece& piece : some) {
         piece.slices = slices_ ? slices_->workers().number() : 0, piece.coarser = coarser;
         if (from == 0) own = std::move(piece);
-        else send(ranks, from, piece), send(ranks, from, beside[from]), send(ranks, from, first[from]);
+        else send(ranks, from, piece);
         piece = {}, ++from;
       }
     }
@@ -170,5 +169,5 @@ DOTYK_DOOR bool dotyk_multigrid_share(double unknowns) { return dotyk::multigrid
 DOTYK_DOOR dotyk::algebra::SlicedMatrix* dotyk_multigrid_slices(const dotyk::multigrid::Shared& matrix) {
   using namespace dotyk::multigrid;
   const std::lock_guard lock(only_one());
-  return new RankSlices(workers_for(static_cast<double>(matrix.node.size())), matrix);
+  return new RankSlices(workers_for(static_cast<double>(matrix.coupling.node.size())), matrix);
 }

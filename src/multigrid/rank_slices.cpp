@@ -91,7 +91,7 @@ void tell_some(const Ranks& ranks, const Slice& slice) {
 }
 
 RankSlices::RankSlices(Workers workers, const Shared& shared)
-    : RankSlices(workers, Numbering({shared.node, &shared.coarse, shared.dimension, &shared.rows, shared.each_pair}, workers.ranks().count())) {
+    : RankSlices(workers, Numbering(shared.coupling, workers.ranks().count())) {
   workers_.ranks().together([&] {
     slice_ = share_out(shared);
     take_diagonal();
@@ -253,9 +253,10 @@ algebra::StoredMatrix RankSlices::near(std::vector<char>& of, int layers) const 
   std::vector<int> outermost;
   for (std::size_t i = 0; i < of.size(); ++i)
     if (of[i]) outermost.push_back(static_cast<int>(i));
-  if (const double entries = entries_ * static_cast<double>(outermost.size()) / static_cast<double>(of.size()); entries > std::numeric_limits<int>::max())
+  const double entries = entries_ * static_cast<double>(outermost.size()) / static_cast<double>(of.size());
+  if (entries > std::numeric_limits<int>::max())
     throw InputError(text("the stiffness has ", entries, " entries, too many to be put together; dotyk.solver.multigrid{} does without"));
-  else require_memory(18 * entries, "the stiffness, put together from its slices,");  // all entries, and 12 bytes for each of half of them
+  require_memory(18 * entries, "the stiffness, put together from its slices,");  // all entries, and 12 bytes for each of half of them
   std::vector<Asked> all;
   for (;; --layers) {
     all.push_back(ask(outermost));

@@ -16,16 +16,21 @@ using Assemble = algebra::StoredMatrix (*)(Lists lists);
 /// Calls visit(i, j) for pairs, some of them several times. It is called twice and gives the same pairs.
 using EachPair = std::function<void(const std::function<void(int, int)>& visit)>;
 
+/// What unknowns are shared out by among the ranks.
+struct Coupling {
+  const std::vector<int>& node;                    ///< of each unknown, ascending, as in Matrix
+  const std::vector<algebra::SparseRows>& coarse;  ///< as in Matrix; none: there is no coarser mesh
+  int dimension;                                   ///< as in Matrix
+  const algebra::SparseRows& rows;                 ///< as in Matrix; none: nothing is coupled by rows
+  EachPair each_pair;                              ///< of unknowns whose nodes the matrix couples; one unknown of each node is enough
+};
+
 /// A symmetric matrix that is to be assembled. Nothing of it is kept.
 struct Shared {
-  const std::vector<int>& node;                     ///< of each unknown, ascending, as in Matrix
-  const std::vector<algebra::SparseRows>& coarse;   ///< as in Matrix; none: there is no coarser mesh
-  int dimension;                                    ///< as in Matrix
-  const algebra::SparseRows& rows;                  ///< as in Matrix
-  EachPair each_pair;                               ///< of unknowns of nodes that the matrix couples: one of each node is enough
+  const Coupling& coupling;
   /// A share whose matrix has the right entries in rows of the flagged unknowns. Several threads call it.
   std::function<Share(const std::vector<char>& own)> share;
-  Assemble assemble;                                ///< as the other ranks have it from work_for_rank_0()
+  Assemble assemble;  ///< as the other ranks have it from work_for_rank_0()
 };
 
 /// Several ranks share the work where each has enough to do. One process saves memory where there are many unknowns: solvers take the matrix of the slices on

@@ -75,8 +75,7 @@ std::unique_ptr<Cycle> make(Slices& slices) {
   Piece piece = receive_piece(world(), 0);
   if (piece.slices) take_matrix(piece, *slices.at(piece.slices));
   const int coarser = piece.coarser;
-  const Change beside = receive_change(world(), 0), first = receive_change(world(), 0);
-  auto cycle = std::make_unique<Cycle>(world(), std::move(piece), beside, first);
+  auto cycle = std::make_unique<Cycle>(world(), std::move(piece));
   if (HalfRows rows = cycle->take_coarser(); coarser) slices[coarser] = receive_rest(world(), std::move(rows));
   return cycle;
 }

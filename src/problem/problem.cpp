@@ -145,15 +145,16 @@ const algebra::SlicedMatrix* slices(const Problem& problem) {
 
 SparseMatrix lower_stiffness(const Problem& problem) {
   if (problem.blocks.size() == 1) return problem.blocks.front().K;
+  if (const auto* sliced = slices(problem)) {
+    std::vector<char> all(static_cast<std::size_t>(problem.unknowns()), 1);
+    algebra::StoredMatrix whole = sliced->near(all);
+    SparseMatrix lower;
+    lower.swap(whole);
+    return lower;
+  }
   std::vector<const SparseMatrix*> blocks;
-  std::vector<char> of(static_cast<std::size_t>(problem.unknowns()), 1);
-  const auto* sliced = slices(problem);
-  for (const Block& block : problem.blocks)
-    if (!sliced) blocks.push_back(&block.K.lower());
-  algebra::StoredMatrix joined = sliced ? sliced->near(of) : algebra::block_diagonal(blocks);
-  SparseMatrix all;
-  all.swap(joined);
-  return all;
+  for (const Block& block : problem.blocks) blocks.push_back(&block.K.lower());
+  return algebra::block_diagonal(blocks);
 }
 
 std::vector<int> nodes(const Problem& problem) {

@@ -19,7 +19,7 @@ struct RowBasis {
   /// The displacements T u', and the forces Tᵀ f in this basis.
   algebra::Vector displacements(algebra::Vector u) const { return of_signs() ? with_signs(std::move(u)) : T * u; }
   algebra::Vector forces(algebra::Vector f) const { return of_signs() ? with_signs(std::move(f)) : T.transpose() * f; }
-  /// R T: rows that act on displacements, in this basis.
+  /// R T: the rows R, which act on displacements, as rows that act on the unknowns u'.
   algebra::SparseRows times(const algebra::SparseRows& R) const;
   /// S = T⁻¹: u' = S u.
   algebra::SparseMatrix of_displacements(const Problem& problem) const;

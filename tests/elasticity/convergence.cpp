@@ -66,7 +66,7 @@ Errors errors(int dim, mesh::Family family, int n) {
   std::vector<double> load(m.coordinates.size(), 0);
   elasticity::add_body_force(
       m, [&](const Point& x) { return force(x, dim); }, load);
-  const auto system = elasticity::assemble(m, material, {}, load, numbering);
+  const auto system = test::system_of(m, material, {}, load, numbering);
   const std::vector<double> u = test::solve_sparse(system, numbering);
   REQUIRE(u.size() == m.coordinates.size());
   const auto reference = test::nodal(m, [&](const Point& x) { return exact(x, dim); });

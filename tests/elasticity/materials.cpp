@@ -45,7 +45,7 @@ std::vector<double> pulled(const mesh::Mesh& m, const test::MaterialField& mater
       [](const Point&) {
         return Point{0, 0, 0};
       });
-  return test::solve(elasticity::assemble(m, material, {}, force, numbering), numbering);
+  return test::solve(test::system_of(m, material, {}, force, numbering), numbering);
 }
 
 }  // namespace

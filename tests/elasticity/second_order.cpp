@@ -84,7 +84,7 @@ TEST_CASE("a quadratic displacement is reproduced exactly on straight cells, and
         };
         const auto numbering = test::prescribe(m, given, u);
         const auto material = test::steel(dim, kE, kNu);
-        const auto solved = test::solve(elasticity::assemble(m, material, {}, force, numbering), numbering);
+        const auto solved = test::solve(test::system_of(m, material, {}, force, numbering), numbering);
         CHECK(test::largest_difference(solved, test::nodal(m, u)) < 1e-12);
         const auto stress = elasticity::nodal_stress(m, material, solved);
         for (int n = 0; n < m.node_count(); ++n) {
@@ -105,7 +105,7 @@ TEST_CASE("the patch test on curved cells: tensor cells and triangles pass it, t
     auto m = test::unit(dim, family, n);
     test::curve(m, 0.03);
     const auto numbering = test::prescribe(m, [&](const Point& x, int) { return test::on_boundary(x, dim); }, linear);
-    const auto u = test::solve_sparse(elasticity::assemble(m, test::steel(dim), {}, {}, numbering), numbering);
+    const auto u = test::solve_sparse(test::system_of(m, test::steel(dim), {}, {}, numbering), numbering);
     return test::largest_difference(u, test::nodal(m, linear));
   };
   CHECK(error(2, mesh::Family::p2, 4) < 1e-12);
@@ -228,7 +228,7 @@ TEST_CASE("a manufactured solution converges with order 3 in displacement and 2 
             for (int j = 0; j < dim; ++j) f[i] -= (kLambda + kMu) * amount[j] * product(x, i, j) + kMu * amount[i] * product(x, j, j);
           return f;
         }, load);
-        const auto system = elasticity::assemble(m, test::steel(dim, kE, kNu), {}, load, numbering);
+        const auto system = test::system_of(m, test::steel(dim, kE, kNu), {}, load, numbering);
         const auto u = test::solve_sparse(system, numbering);
         double work = 0;  // a(u_h, u_h)
         for (std::size_t k = 0; k < u.size(); ++k) work += load[k] * u[k];

@@ -17,7 +17,7 @@ TEST_CASE("a share has the rows of its unknowns: all elements, springs, supports
       const auto springs = test::even_springs(m, "top", {2, 5, 7});
       const auto numbering = test::prescribe(m, [](const Point& x, int i) { return x[0] == 0 && i == 0; }, [](const Point&) { return Point{0.1, 0, 0}; });
       for (const auto* material : {&varying, &uniform}) {
-        const algebra::SparseMatrix whole = elasticity::assemble(m, *material, springs, {}, numbering).K;
+        const algebra::SparseMatrix whole = elasticity::assemble(m, *material, springs, numbering);
         std::vector<char> own(static_cast<std::size_t>(numbering.count()), 0);
         for (int i = 0; i < numbering.count(); ++i) own[i] = m.point(numbering.node[i])[1] > 0.5;
         Share share = elasticity::share(m, *material, springs, numbering, own);

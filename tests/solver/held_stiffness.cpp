@@ -139,7 +139,10 @@ TEST_CASE("slices of several bodies, whose rows couple many displacements, give 
     for (int i = 0; i < K.rows(); ++i) all.unknowns.push_back(i);
     return all;
   };
-  take_slices(sliced, multigrid::make_slices({nodes(whole), coarse_functions(whole), 3, whole.B, [](const auto&) {}, share, from_lists}));
+  const std::vector<int> node = nodes(whole);
+  const std::vector<algebra::SparseRows> functions = coarse_functions(whole);
+  const multigrid::Coupling coupling{node, functions, 3, whole.B, [](const auto&) {}};
+  take_slices(sliced, multigrid::make_slices({coupling, share, from_lists}));
   REQUIRE(slices(sliced));
   const auto rigid = problem::rigid_motions(whole);
   const Vector u = test::Random(7).vector(whole.unknowns());

@@ -91,8 +91,20 @@ inline std::vector<double> nodal(const Mesh& m, const VectorField& u) {
   return values;
 }
 
+/// Stiffness and load of a body.
+struct System {
+  algebra::SparseMatrix K;
+  algebra::Vector f;
+  double offset = 0;
+};
+inline System system_of(const Mesh& m, const elasticity::MaterialField& material, const std::vector<elasticity::FacetSpring>& springs, const std::vector<double>& force,
+                        const Numbering& numbering) {
+  const elasticity::Load load = elasticity::load(m, material, springs, force, numbering);
+  return {elasticity::assemble(m, material, springs, numbering), load.f, load.offset};
+}
+
 /// Nodal displacement (node × dimension) of the assembled system.
-inline std::vector<double> solve(const elasticity::System& s, const Numbering& numbering) {
+inline std::vector<double> solve(const System& s, const Numbering& numbering) {
   std::vector<double> u = numbering.prescribed;
   if (numbering.count() == 0) return u;
   const algebra::Vector x = algebra::Ldlt(full(s.K)).solve(s.f);
@@ -102,7 +114,7 @@ inline std::vector<double> solve(const elasticity::System& s, const Numbering& n
 }
 
 /// The same by a sparse factorisation, for finer meshes.
-inline std::vector<double> solve_sparse(const elasticity::System& s, const Numbering& numbering) {
+inline std::vector<double> solve_sparse(const System& s, const Numbering& numbering) {
   std::vector<double> u = numbering.prescribed;
   algebra::Cholesky cholesky(s.K, numbering.node, {});
   if (!cholesky.factor(s.K)) return {};

@@ -18,7 +18,7 @@ struct CutBody {
 };
 
 struct Assembled {
-  elasticity::System system;
+  System system;
   Numbering numbering;
   elasticity::RigidModes rigid;
 };
@@ -28,7 +28,7 @@ inline Assembled assembled(const Mesh& m, const CutBody& body, bool hold) {
   a.numbering = hold ? prescribe(m, body.held, body.value) : all_free(m);
   std::vector<double> force(m.coordinates.size(), 0);
   elasticity::add_body_force(m, body.load, force);
-  a.system = elasticity::assemble(m, steel(m.dimension(), body.young), {}, force, a.numbering);
+  a.system = system_of(m, steel(m.dimension(), body.young), {}, force, a.numbering);
   a.rigid = elasticity::rigid_modes(m, a.numbering, {});
   return a;
 }

@@ -31,7 +31,7 @@ double dot(Vec a, Vec b) {
 
 }  // namespace
 
-Cycle::Cycle(const Ranks& ranks, Piece piece, const Change& beside, const Change& first) : ranks_(ranks), hierarchy_(ranks, std::move(piece), beside, first) {
+Cycle::Cycle(const Ranks& ranks, Piece piece) : ranks_(ranks), hierarchy_(ranks, std::move(piece)) {
   const int twice = first_swept_twice();
   for (int l = 0; l + 1 < levels(); ++l) {
     Level& level = levels_.emplace_back(Level{Sweeps(hierarchy_.matrix(l)), l >= twice ? 2 : 1, {}, {}, {}, {}});

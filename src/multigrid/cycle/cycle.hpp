@@ -14,7 +14,7 @@ namespace dotyk::multigrid {
 /// One of them lives on each rank. All functions are collective, except the const ones.
 class Cycle {
  public:
-  Cycle(const Ranks& ranks, Piece piece, const Change& beside, const Change& first);  ///< as for Hierarchy
+  Cycle(const Ranks& ranks, Piece piece);
 
   bool set(const Change& change);
   HalfRows take_coarser() { return hierarchy_.take_coarser(); }  ///< as in Hierarchy

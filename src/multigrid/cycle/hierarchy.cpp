@@ -126,42 +126,42 @@ OwnedMat product(Mat S, Mat P) {
 
 }  // namespace
 
-Hierarchy::Hierarchy(const Ranks& ranks, Piece piece, const Change& beside, const Change& first) : ranks_(ranks), piece_(std::move(piece)) {
+Hierarchy::Hierarchy(const Ranks& ranks, Piece piece) : ranks_(ranks), piece_(std::move(piece)) {
   empty_.assign(static_cast<std::size_t>(piece_.own[0]), 0);
   if (piece_.lent) matrices_.emplace_back(piece_.lent, &piece_.lent->now());
   else add_level(HalfMatrix(ranks_, std::move(piece_.matrix)));
   pending_.emplace_back(empty_.size(), 1);
-  make_room_for(beside);
-  coarsen(beside, first);
+  make_room_for(piece_.beside);
+  coarsen();
 }
 
 OwnedMat Hierarchy::oblong(Rows& rows, int own_columns, std::array<int, 2> blocks) {
   return matrix_of(ranks_, rows, others_.emplace_back(), own_columns, blocks);
 }
 
-void Hierarchy::coarsen(const Change& beside, const Change& first) {
+void Hierarchy::coarsen() {
   const bool same = piece_.unknowns.columns.empty();
   OwnedMat S;
   if (!ranks_.all(same)) S = oblong(piece_.unknowns, piece_.own[0], {piece_.block, piece_.block});
   if (!piece_.functions.empty()) {
-    take(beside);
+    take(piece_.beside);
     take_functions(S);
     if (piece_.coarser) compute_coarser();
-    take(first);
+    take(piece_.first);
     if (aggregates_follow(ranks_.sum(piece_.own.back()), ranks_.sum(piece_.own[0]))) {
       fill_coarse();
       take_aggregates(whole(*matrices_.back()));
     }
   } else if (S) {
     take_aggregates(piece_.slices ? held_slightly(matrix(0)) : held_slightly(HalfMatrix(ranks_, std::move(piece_.displaced))));
-    take(beside), take(first);
+    take(piece_.beside), take(piece_.first);
     take_unknowns(S);
   } else {
-    take(beside), take(first);
+    take(piece_.beside), take(piece_.first);
     take_aggregates(whole(matrix(0)));
   }
   S = OwnedMat();
-  piece_.unknowns = Rows(), piece_.modes = {};
+  piece_.unknowns = Rows(), piece_.beside = Change(), piece_.first = Change(), std::vector<double>().swap(piece_.modes);
   for (std::size_t l = products_.size(); l < interpolations_.size(); ++l) multiply(static_cast<int>(l));
 }
 

@@ -16,13 +16,12 @@ namespace dotyk::multigrid {
 /// Matrices and interpolations of all levels; each rank holds its rows. All functions are collective, except the const ones.
 class Hierarchy {
  public:
-  /// `beside`: entries that are others than those of a slice's matrix, whose pattern need not have them. `first` makes the matrix positive definite.
-  Hierarchy(const Ranks& ranks, Piece piece, const Change& beside, const Change& first);
+  Hierarchy(const Ranks& ranks, Piece piece);
 
   /// New numbers, and the coarse matrices for them. False where they are seen not to be positive definite.
   bool set(const Change& change);
 
-  /// Of the matrix of the next coarser mesh this rank's rows, without the constructor's `first`, where the piece asks for them; once.
+  /// Of the matrix of the next coarser mesh this rank's rows, without Piece::first, where the piece asks for them; once.
   HalfRows take_coarser() { return std::move(coarser_); }
   int levels() const { return static_cast<int>(matrices_.size()); }
   HalfMatrix& matrix(int level) { return *matrices_[level]; }             ///< from 0, the finest
@@ -36,11 +35,11 @@ class Hierarchy {
   void make_room_for(const Change& change);  ///< in the pattern of the finest matrix
   void add_level(HalfMatrix matrix) { matrices_.push_back(std::make_shared<HalfMatrix>(std::move(matrix))); }
   OwnedMat oblong(Rows& rows, int own_columns, std::array<int, 2> blocks);
-  void coarsen(const Change& beside, const Change& first);
+  void coarsen();
   void compute_coarser();
   /// Levels of coarser meshes. S: the unknowns, of displacements, all slots; null where they are the same.
   void take_functions(Mat S);
-  /// Levels of aggregates below a matrix, which has the modes.
+  /// Levels of aggregates below a matrix of the near kernel that Piece::modes are.
   void take_aggregates(OwnedMat of);
   /// Interpolations from coarse displacements to the unknowns, and coarse matrices of these.
   void take_unknowns(Mat S);

@@ -1,5 +1,5 @@
-// One rank's rows of a matrix that stays as it is. While a solver has the matrix on loan, each function of a slice puts the slice's numbers in place and the
-// solver's back: two of them must not run at the same time.
+// One rank's rows of a matrix that stays as it is. While a solver has the matrix on loan, each function of a slice first restores the slice's numbers, and at
+// its end the solver's. So two of these functions must not run at the same time.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace dotyk::multigrid {
 
-/// One matrix for a slice and the solver that it lends it to. Where the solver has other numbers, the slice's are remembered.
+/// A matrix that a slice shares with a solver. The slice's numbers are remembered where the solver changes them, so that they can be restored.
 class LentMatrix {
  public:
   using Number = std::pair<double*, double>;  ///< a place in the matrix, and what is to be there

@@ -61,7 +61,7 @@ class Sharing {
  public:
   /// `first`: unknown of each node, and the number of all.
   Sharing(const Coupling& coupling, const std::vector<int>& first, int ranks) : coupling_(coupling), first_(first), ranks_(ranks) {
-    const int meshes = coupling.coarse ? static_cast<int>(coupling.coarse->size()) : 0;
+    const auto meshes = static_cast<int>(coupling.coarse.size());
     for (int l = 0; l <= meshes; ++l) of_.emplace_back(static_cast<std::size_t>(nodes(l)), 0);
     if (ranks == 1) return;
     std::vector<std::vector<int>> parents;
@@ -70,7 +70,8 @@ class Sharing {
       std::vector<int> parent = parents_of(l);
       std::vector<idx_t> sum(static_cast<std::size_t>(nodes(l + 1)), 0);
       for (int node = 0; node < nodes(l); ++node) sum[parent[node]] += weight[node];
-      if (l > 0 && *std::ranges::max_element(sum) > std::accumulate(sum.begin(), sum.end(), idx_t{0}) / (kEnough * ranks)) break;  // as where a body has more coarser meshes than the others
+      const idx_t all = std::accumulate(sum.begin(), sum.end(), idx_t{0}), heaviest = *std::ranges::max_element(sum);
+      if (l > 0 && heaviest > all / (kEnough * ranks)) break;  // as where a body has more coarser meshes than the others
       parents.push_back(std::move(parent)), weight = std::move(sum);
     }
     const auto level = static_cast<int>(parents.size());
@@ -86,7 +87,7 @@ class Sharing {
 
  private:
   int nodes(int level) const {
-    return level == 0 ? static_cast<int>(first_.size()) - 1 : static_cast<int>((*coupling_.coarse)[level - 1].cols()) / coupling_.dimension;
+    return level == 0 ? static_cast<int>(first_.size()) - 1 : static_cast<int>(coupling_.coarse[level - 1].cols()) / coupling_.dimension;
   }
   /// Calls visit(node, row) for the rows of a level: supports may take components of a node, and their functions, away.
   template <class Visit>
@@ -99,7 +100,7 @@ class Sharing {
 
   /// Of each node the one of the next level whose function is greatest there; where there is none, that of the node before.
   std::vector<int> parents_of(int level) const {
-    const algebra::SparseRows& functions = (*coupling_.coarse)[level];
+    const algebra::SparseRows& functions = coupling_.coarse[level];
     std::vector<int> parent(static_cast<std::size_t>(nodes(level)), -1);
     std::vector<double> greatest(parent.size(), 0);
     each_row(level, [&](int node, int row) {
@@ -113,7 +114,7 @@ class Sharing {
   /// Functions that meet at a node of the finer mesh are neighbours.
   template <class Edge>
   void functions_meet(int level, Edge& edge) const {
-    const algebra::SparseRows& functions = (*coupling_.coarse)[level - 1];
+    const algebra::SparseRows& functions = coupling_.coarse[level - 1];
     each_row(level - 1, [&](int, int row) {
       for (algebra::SparseRows::InnerIterator a(functions, row); a; ++a)
         for (algebra::SparseRows::InnerIterator b(functions, row); b && b.col() < a.col(); ++b)
@@ -146,10 +147,9 @@ class Sharing {
   /// Calls visit(node, node) for the first node of each row with all of them.
   template <class Visit>
   void each_coupled(const Visit& visit) const {
-    if (!coupling_.rows) return;
     const std::vector<int> node = node_of_unknowns();
-    for (int r = 0; r < coupling_.rows->rows(); ++r)
-      for (algebra::SparseRows::InnerIterator first(*coupling_.rows, r), it = first; it; ++it) visit(node[first.col()], node[it.col()]);
+    for (int r = 0; r < coupling_.rows.rows(); ++r)
+      for (algebra::SparseRows::InnerIterator first(coupling_.rows, r), it = first; it; ++it) visit(node[first.col()], node[it.col()]);
   }
   std::vector<int> node_of_unknowns() const {
     std::vector<int> node;
@@ -180,7 +180,7 @@ Numbering::Numbering(const Coupling& coupling, int ranks) {
   }
   for (int& f : first_[0]) f *= block_;
   take_unknowns();
-  for (std::size_t l = 1; coupling.coarse && l <= coupling.coarse->size(); ++l) {
+  for (std::size_t l = 1; l <= coupling.coarse.size(); ++l) {
     const std::vector<int> number = numbers_by_rank(sharing.of(static_cast<int>(l)), ranks, first_.emplace_back());
     std::vector<int>& rows = functions_.emplace_back();
     for (const int n : number)

@@ -9,19 +9,10 @@
 
 namespace dotyk::multigrid {
 
-/// What unknowns are shared out by.
-struct Coupling {
-  const std::vector<int>& node;                    ///< as in Matrix
-  const std::vector<algebra::SparseRows>* coarse;  ///< as in Matrix
-  int dimension;                                   ///< as in Matrix
-  const algebra::SparseRows* rows;                 ///< as in Matrix
-  const EachPair& each_pair;                       ///< of unknowns whose nodes are coupled
-};
-
 /// Numbers the rows of all levels. Unknowns come in blocks of one size, one block a node; a node of the finest level with fewer unknowns has idle rows
 /// beside them. The rows of a rank follow one another.
-/// METIS (Karypis, Kumar 1998) shares out the nodes of the coarsest mesh that has enough of them, none of which weighs much, else of the finest. A node of a finer mesh goes to the rank of
-/// the coarse node whose function is greatest there. Meshes that are coarser still belong to rank 0.
+/// METIS (Karypis, Kumar 1998) shares out the nodes of the coarsest mesh that has enough of them, none of which weighs much, else those of the finest. A node of
+/// a finer mesh goes to the rank of the coarse node whose function is greatest there. Meshes that are coarser still belong to rank 0.
 class Numbering {
  public:
   Numbering(const Coupling& coupling, int ranks);

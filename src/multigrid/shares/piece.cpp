@@ -7,6 +7,7 @@
 
 #include "algebra/entries_of.hpp"
 #include "multigrid/rows/own_rows.hpp"
+#include "multigrid/shares/changes.hpp"
 
 namespace dotyk::multigrid {
 
@@ -80,21 +81,21 @@ void visit_all(HalfRows& rows, Visit&& visit) {
 }
 
 template <class Visit>
+void visit_all(Change& c, Visit&& visit) {
+  visit(c.rows), visit(c.columns), visit(c.values), visit(c.empty), visit(c.shared);
+}
+
+template <class Visit>
 void visit_all(Piece& p, Visit&& visit) {
   std::vector<int> sizes{p.block, p.dimension, p.motions, p.coarser, p.slices, static_cast<int>(p.functions.size())};
   visit(sizes);
   p.block = sizes[0], p.dimension = sizes[1], p.motions = sizes[2], p.coarser = sizes[3], p.slices = sizes[4];
   p.functions.resize(static_cast<std::size_t>(sizes[5]));
   visit(p.own);
-  visit_all(p.matrix, visit), visit_all(p.displaced, visit);
+  visit_all(p.matrix, visit), visit_all(p.displaced, visit), visit_all(p.beside, visit), visit_all(p.first, visit);
   for (Rows& functions : p.functions) visit_rows(functions, visit);
   visit_rows(p.unknowns, visit);
   visit(p.modes);
-}
-
-template <class Visit>
-void visit_all(Change& c, Visit&& visit) {
-  visit(c.rows), visit(c.columns), visit(c.values), visit(c.empty), visit(c.shared);
 }
 
 template <class Whole>
@@ -108,11 +109,13 @@ Whole receive_whole(const Ranks& ranks, int from) {
 
 bool aggregates_follow(double coarsest_unknowns, double finest_unknowns) { return coarsest_unknowns > std::clamp(std::sqrt(500 * finest_unknowns), 2e3, 25e3); }
 
-Pieces::Pieces(const Matrix& matrix, const Numbering& numbering) : matrix_(matrix), numbering_(numbering) {
+Pieces::Pieces(const Matrix& matrix, const Numbering& numbering, int ranks) : matrix_(matrix), numbering_(numbering), beside_(static_cast<std::size_t>(ranks)), first_(beside_) {
   if (!matrix.lower.isCompressed() || static_cast<std::size_t>(matrix.lower.rows()) != matrix.node.size())
     throw std::runtime_error("multigrid: the matrix is not compressed, or nodes are not given for each unknown");
   if (!matrix.slices) finest_ = source(matrix.lower);
   else if (!(matrix.slices->diagonal().minCoeff() > 0)) throw std::runtime_error(kNotPositive);
+  if (matrix.beside_slices) beside_ = changes(*matrix.beside_slices, {}, {}, numbering, ranks);
+  if (matrix.changed) first_ = changes(*matrix.changed, {}, {}, numbering, ranks);
   const int meshes = matrix.coarse ? static_cast<int>(matrix.coarse->size()) : 0;
   if (meshes == 0 || aggregates_follow(numbering.first(meshes).back(), numbering.first(0).back())) near_kernel_ = matrix.near_kernel();
   if (!matrix.displaced) return;
@@ -130,9 +133,10 @@ HalfRows Pieces::rows_of(int rank, const Source& source) const {
   return rows;
 }
 
-Piece Pieces::of(int rank) const {
+Piece Pieces::of(int rank) {
   const int meshes = matrix_.coarse ? static_cast<int>(matrix_.coarse->size()) : 0;
   Piece p;
+  p.beside = std::move(beside_[rank]), p.first = std::move(first_[rank]);
   p.block = numbering_.block(), p.dimension = matrix_.dimension, p.motions = static_cast<int>(near_kernel_.cols());
   for (int l = 0; l <= meshes; ++l) p.own.push_back(range_of(rank, numbering_, l).count());
   for (int l = 0; l < meshes; ++l)

@@ -11,6 +11,14 @@
 
 namespace dotyk::multigrid {
 
+/// How a matrix differs from the one before, as far as one rank's rows of the finest level are concerned.
+struct Change {
+  std::vector<int> rows, columns;  ///< of entries with other numbers, by the numbers of Numbering
+  std::vector<double> values;      ///< of these entries
+  std::vector<int> empty;          ///< rows, counted from the rank's first, where all coarse functions vanish
+  std::vector<int> shared;         ///< rows, counted likewise, at which the smoother solves exactly
+};
+
 /// What one rank is given. Rows and columns are numbered as in Numbering.
 struct Piece {
   int block = 1, dimension = 3;  ///< unknowns of a node: on the finest level, on coarser meshes
@@ -20,6 +28,8 @@ struct Piece {
   HalfRows matrix;               ///< idle rows have the mean of its diagonal
   int slices = 0;                ///< the number of the slices that have the matrix; 0: it is given
   std::shared_ptr<LentMatrix> lent = nullptr;  ///< the slice's, in place of `matrix`; it is not sent
+  Change beside;                 ///< entries in which the matrix differs from the slice's, whose pattern may lack them
+  Change first;                  ///< with which the matrix is positive definite
   std::vector<Rows> functions;   ///< of each coarser mesh
   HalfRows displaced;            ///< as in Matrix, where there are no coarser meshes; idle rows as in `matrix`
   Rows unknowns;                 ///< as in Matrix; idle rows as in the identity. No rows where it has none
@@ -34,8 +44,8 @@ bool aggregates_follow(double coarsest_unknowns, double finest_unknowns);
 class Pieces {
  public:
   /// Throws std::runtime_error where no pieces can be made: a diagonal that is not positive, a matrix that is no lower triangle.
-  Pieces(const Matrix& matrix, const Numbering& numbering);
-  Piece of(int rank) const;
+  Pieces(const Matrix& matrix, const Numbering& numbering, int ranks);
+  Piece of(int rank);  ///< once for each rank, from several threads
 
  private:
   /// A lower triangle of the finest level.
@@ -48,6 +58,7 @@ class Pieces {
 
   const Matrix& matrix_;
   const Numbering& numbering_;
+  std::vector<Change> beside_, first_;   // of each rank
   Source finest_, displaced_;            // the second where aggregates are made of it
   algebra::DenseMatrix near_kernel_;     // no columns where there are no aggregates
 };
@@ -55,14 +66,6 @@ void send(const Ranks& ranks, int to, Piece& piece);
 Piece receive_piece(const Ranks& ranks, int from);
 /// Takes the matrix of the slice, on loan if no other solver has it.
 void take_matrix(Piece& piece, const Slice& slice);
-
-/// How a matrix differs from the one before, as far as one rank's rows of the finest level are concerned.
-struct Change {
-  std::vector<int> rows, columns;  ///< of entries with other numbers, by the numbers of Numbering
-  std::vector<double> values;      ///< of these entries
-  std::vector<int> empty;          ///< rows, counted from the rank's first, where all coarse functions vanish
-  std::vector<int> shared;         ///< rows, counted likewise, at which the smoother solves exactly
-};
 
 void send(const Ranks& ranks, int to, Change& change);
 Change receive_change(const Ranks& ranks, int from);

@@ -66,14 +66,11 @@ std::vector<std::string> describe_nearly_free(const Scene& scene, const Model& m
 
 namespace {
 
-void take_load(const Body& body, elasticity::System system, problem::Block& block) {
-  block.f = std::move(system.f);
-  block.offset = system.offset + broken_energy(body);
-}
-
 /// f and the offset for the body's prescribed components as they are now.
 void set_load(const Body& body, const Numbering& numbering, problem::Block& block) {
-  take_load(body, elasticity::load(*body.mesh, body.material, body.facet_springs(), body.force, numbering), block);
+  auto load = elasticity::load(*body.mesh, body.material, body.facet_springs(), body.force, numbering);
+  block.f = std::move(load.f);
+  block.offset = load.offset + broken_energy(body);
 }
 
 /// What a rank assembles the flagged rows from.
@@ -108,17 +105,15 @@ void assemble_slices(Model& model) {
   problem::Problem& problem = model.problem;
   std::vector<std::vector<elasticity::FacetSpring>> springs;
   for (const Body& body : model.bodies) springs.push_back(body.facet_springs());
-  take_slices(problem, multigrid::make_slices({problem::nodes(problem), problem::coarse_functions(problem), problem.blocks[0].coarse.dimension, problem.B,
-                                               [&](const auto& visit) { each_pair_of_cells(model, visit); },
-                                               [&](const std::vector<char>& own) { return share_of_all(model, springs, own); }, elasticity::assemble_share}));
+  const std::vector<int> nodes = problem::nodes(problem);
+  const std::vector<algebra::SparseRows> functions = problem::coarse_functions(problem);
+  const multigrid::Coupling coupling{nodes, functions, problem.blocks[0].coarse.dimension, problem.B, [&](const auto& visit) { each_pair_of_cells(model, visit); }};
+  take_slices(problem, multigrid::make_slices({coupling, [&](const std::vector<char>& own) { return share_of_all(model, springs, own); }, elasticity::assemble_share}));
 }
 
-/// K, f and the offset.
-void assemble(const Body& body, const Numbering& numbering, problem::Block& block) {
+algebra::StoredMatrix assemble(const Body& body, const Numbering& numbering) {
   require_memory(2 * elasticity::matrix_bytes(*body.mesh), "the stiffness of '" + body.name + "'");  // and as much while it is made
-  auto system = elasticity::assemble(*body.mesh, body.material, body.facet_springs(), body.force, numbering);
-  block.K = std::move(system.K);
-  take_load(body, std::move(system), block);
+  return elasticity::assemble(*body.mesh, body.material, body.facet_springs(), numbering);
 }
 
 /// A block that is not assembled yet.
@@ -241,8 +236,11 @@ Model build(const Scene& scene, problem::Clock& clock, Monitor& monitor, const L
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     const Body& body = model.bodies[b];
     problem::Block& block = model.problem.blocks[b];
-    if (in_slices) set_load(body, model.numbering[b], block);
-    else monitor.phase(text("assembling '", body.name, "' (", body.mesh->cell_count(), " cells)")), assemble(body, model.numbering[b], block);
+    if (!in_slices) {
+      monitor.phase(text("assembling '", body.name, "' (", body.mesh->cell_count(), " cells)"));
+      block.K = assemble(body, model.numbering[b]);
+    }
+    set_load(body, model.numbering[b], block);
     problem::require_kernel(block.K, block.kernel, "'" + block.name + "'", block.motions);
     model.nearly_free.push_back(nearly_free(body, model.numbering[b], block, model.softest));
     monitor.check();

@@ -174,7 +174,7 @@ Subdomain numbered(const Piece& piece, const Model& model) {
 
 problem::Stiffness assemble(const Piece& piece, const std::string& body) {
   const mesh::Mesh& mesh = piece.part.mesh;
-  problem::Stiffness s{elasticity::assemble(mesh, piece.material, piece.springs, {}, piece.numbering).K, {}};
+  problem::Stiffness s{elasticity::assemble(mesh, piece.material, piece.springs, piece.numbering), {}};
   auto rigid = elasticity::rigid_modes(mesh, piece.numbering, piece.springs);
   problem::require_kernel(s.K, rigid.modes, "a subdomain of '" + body + "'", rigid.motions);
   s.kernel = std::move(rigid.modes);

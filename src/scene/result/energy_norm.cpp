@@ -113,7 +113,7 @@ class Lumping {
     for (std::size_t b = 0; b < problem.blocks.size(); ++b) {
       if (problem.blocks[b].K.rows() > 0) continue;
       const Body& body = solution.body(static_cast<int>(b));
-      problem.blocks[b].K = elasticity::assemble(*body.mesh, body.material, body.facet_springs(), body.force, solution.model().numbering[b]).K;
+      problem.blocks[b].K = elasticity::assemble(*body.mesh, body.material, body.facet_springs(), solution.model().numbering[b]);
     }
     return problem;
   }

@@ -110,7 +110,7 @@ elasticity::Hooke dirichlet(int dimension) {
 SparseMatrix stiffness(const mesh::Mesh& mesh) {
   const std::vector<double> zero(mesh.coordinates.size(), 0.0);
   const elasticity::MaterialField material(dirichlet(mesh.dimension()));
-  return elasticity::assemble(mesh, material, {}, zero, elasticity::number(mesh, std::vector<char>(zero.size(), 0), zero)).K;
+  return elasticity::assemble(mesh, material, {}, elasticity::number(mesh, std::vector<char>(zero.size(), 0), zero));
 }
 
 constexpr double kCorner = 0.86602540378443864676;  ///< cos 30°

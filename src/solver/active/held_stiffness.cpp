@@ -48,7 +48,7 @@ HeldStiffness::HeldStiffness(const Problem& problem, const RigidMotions& rigid, 
     : problem_(problem), basis_(problem::row_basis(problem)), unnoticed_(problem::unnoticed_displacements(problem, rigid)), rows_(basis_.times(problem.B)),
       fixing_(algebra::fixing_unknowns(unnoticed_)) {
   rows_.prune([](auto, auto, double value) { return std::abs(value) > 1e-14; });
-  assemble(make.takes_slices, rigid);
+  const algebra::Triplets beside = assemble(make.takes_slices, rigid);
   held_.assign(problem.unknowns(), 0);
   watched_ = held_;
   std::vector<char> may_be_held = held_;
@@ -58,12 +58,11 @@ HeldStiffness::HeldStiffness(const Problem& problem, const RigidMotions& rigid, 
   for (const int unknown : fixing_) change(unknown, unknown, lower().coeff(unknown, unknown));  // carries nothing
   if (rigid.noticed.cols() > 0) spring_rows(problem.row_stiffness());
   std::vector<Entry> first = now();
-  solver_ = make.make({lower(), numbers(first), problem, basis_, monitor, nested, slices_, beside_});
-  algebra::Triplets().swap(beside_);
+  solver_ = make.make({lower(), numbers(first), problem, basis_, monitor, nested, slices_, beside});
   told_ = std::move(first);
 }
 
-void HeldStiffness::assemble(bool takes_slices, const RigidMotions& rigid) {
+algebra::Triplets HeldStiffness::assemble(bool takes_slices, const RigidMotions& rigid) {
   algebra::Triplets entries;  // of rows, and of the diagonal where K has no entry there: zeros in the pattern
   for (int r = 0; r < problem_.rows(); ++r)
     for (SparseRows::InnerIterator i(rows_, r); i; ++i)
@@ -80,13 +79,14 @@ void HeldStiffness::assemble(bool takes_slices, const RigidMotions& rigid) {
       if (!algebra::diagonal_entry(block.K.lower(), j)) entries.emplace_back(block.first + j, block.first + j, 0.0);
   lower_ = problem_.blocks.front().K;
   const bool room = alone && has_room(lower(), entries);
-  if (room && basis_.trivial()) return;
+  if (room && basis_.trivial()) return {};
   const SparseMatrix joined = alone ? SparseMatrix() : problem::lower_stiffness(problem_);
   const SparseMatrix& K = alone ? problem_.blocks.front().K.lower() : joined;
   StoredMatrix A;
   A = basis_.of_signs() ? K : algebra::congruent(K, basis_.T);
   if (!room) A = algebra::lower_sum(A, algebra::from_triplets(problem_.unknowns(), problem_.unknowns(), entries));
   lower_ = basis_.of_signs() ? with_signs(std::move(A), basis_) : std::move(A);
+  return {};
 }
 
 std::vector<int> HeldStiffness::fixing_noticed(const RigidMotions& rigid) const {
@@ -95,23 +95,29 @@ std::vector<int> HeldStiffness::fixing_noticed(const RigidMotions& rigid) const 
   return algebra::fixing_unknowns(basis_.trivial() ? motions : SparseMatrix(basis_.of_displacements(problem_) * motions));
 }
 
-void HeldStiffness::assemble_near_rows(const algebra::Triplets& room, const RigidMotions& rigid) {
+algebra::Triplets HeldStiffness::assemble_near_rows(const algebra::Triplets& room, const RigidMotions& rigid) {
   std::vector<char> of(static_cast<std::size_t>(problem_.unknowns()), 0);
   for (Eigen::Index j = 0; j < basis_.T.cols(); ++j) {  // of other columns TᵀKT has K's entries
     const SparseMatrix::InnerIterator first(basis_.T, j);
     of[j] = first.row() != j || first.value() != 1 || basis_.T.outerIndexPtr()[j + 1] - basis_.T.outerIndexPtr()[j] > 1;
   }
   const std::vector<char> changed = of;
-  moves_others_alone_ = basis_.T.rows() > 0 && (basis_.T.diagonal().array() == 0).any();
   for (const auto& entry : room) of[entry.row()] = of[entry.col()] = 1;
   for (const int unknown : fixing_) of[unknown] = 1;
   for (const int unknown : fixing_noticed(rigid)) of[unknown] = 1;
   StoredMatrix A = near_from_slices(of, 0);
+  if (basis_.T.rows() > 0 && (basis_.T.diagonal().array() == 0).any()) {  // where an unknown does not move its own displacement, TᵀKT may be zero and K not
+    StoredMatrix zeros = slices_->near(of);
+    zeros.coeffs().setZero();
+    A = algebra::lower_sum(A, zeros);
+  }
   const bool has = has_room(A, room);
   if (!has) A = algebra::lower_sum(A, algebra::from_triplets(problem_.unknowns(), problem_.unknowns(), room));
   lower_ = std::move(A);
-  algebra::each_entry_of(lower(), changed, [&](int place, int row, int column) { beside_.emplace_back(row, column, lower().valuePtr()[place]); });
-  for (std::size_t k = 0; k < room.size() && !has; ++k) beside_.emplace_back(room[k].row(), room[k].col(), lower().coeff(room[k].row(), room[k].col()));
+  algebra::Triplets beside;
+  algebra::each_entry_of(lower(), changed, [&](int place, int row, int column) { beside.emplace_back(row, column, lower().valuePtr()[place]); });
+  for (std::size_t k = 0; k < room.size() && !has; ++k) beside.emplace_back(room[k].row(), room[k].col(), lower().coeff(room[k].row(), room[k].col()));
+  return beside;
 }
 
 StoredMatrix HeldStiffness::near_from_slices(std::vector<char>& of, int layers) const {
@@ -124,10 +130,9 @@ StoredMatrix HeldStiffness::near_from_slices(std::vector<char>& of, int layers) 
   each_moved([](char unknown, char& displacement) { displacement |= unknown; });
   for (Eigen::Index j = 0; j < basis_.T.cols() && layers > 0; ++j)  // those that a row couples to its own unknown's
     for (SparseMatrix::InnerIterator it(basis_.T, j); it; ++it) moved[j] |= of[it.row()];
-  StoredMatrix K = slices_->near(moved, layers), A = algebra::congruent_near(K, basis_.T);
+  StoredMatrix A = algebra::congruent_near(slices_->near(moved, layers), basis_.T);
   of = moved;
   each_moved([](char& unknown, char displacement) { unknown &= displacement; });
-  if (moves_others_alone_) K *= 0, A = algebra::lower_sum(A, K);
   return A;
 }
 

@@ -85,7 +85,7 @@ class HeldStiffness {
   /// TᵀKT y at the unknowns that rows may hold; where y is zero but there, at all unknowns.
   algebra::Vector resistance_of_watched(const algebra::Vector& y) const;
 
-  /// Unknowns that hold the motions which rows notice, if they are held.
+  /// A few unknowns: where they are held, the bodies cannot move in a way that rows notice.
   std::vector<int> fixing_noticed(const problem::RigidMotions& rigid) const;
   /// u without the motions that no row notices: solve() gives none of them.
   algebra::Vector without_unnoticed(const algebra::Vector& u) const { return problem::least(unnoticed_, u); }
@@ -102,10 +102,11 @@ class HeldStiffness {
 
   /// The lower triangle of TᵀKT; where rows couple unknowns its pattern has places, with zeros if need be. Of slices, all entries of unknowns of rows.
   const algebra::SparseMatrix& lower() const { return lower_.lower(); }
-  void assemble(bool takes_slices, const problem::RigidMotions& rigid);
-  /// The part of assemble() where K is in slices. `room`: places that the pattern must have.
-  void assemble_near_rows(const algebra::Triplets& room, const problem::RigidMotions& rigid);
-  /// near() where K is in slices. Layers are of displacements: those that the flagged unknowns move, and their neighbours.
+  /// Returns SpdSystem::beside_slices.
+  algebra::Triplets assemble(bool takes_slices, const problem::RigidMotions& rigid);
+  /// assemble() for a K in slices. `room`: entries that the pattern must contain.
+  algebra::Triplets assemble_near_rows(const algebra::Triplets& room, const problem::RigidMotions& rigid);
+  /// near() for a K in slices. Layers are layers of displacements, the first of which are those that the flagged unknowns move.
   algebra::StoredMatrix near_from_slices(std::vector<char>& of, int layers) const;
   void change(int row, int column, double by);
   void spring_rows(const algebra::Vector& spring);
@@ -127,8 +128,6 @@ class HeldStiffness {
   algebra::SparseRows rows_;
   algebra::SymmetricMatrix lower_;  ///< K itself where that has the room and T is the identity
   const algebra::SlicedMatrix* slices_ = nullptr;  ///< K; null: lower() is the whole
-  bool moves_others_alone_ = false; ///< does an unknown not move its own displacement? There TᵀKT may be zero where K is not
-  algebra::Triplets beside_;        ///< as in SpdSystem, until the solver is made
   std::vector<int> fixing_;         ///< unknowns that hold motions which no row notices
   std::vector<Entry> changed_;      ///< of the next matrix, in no order
   std::vector<Entry> told_;         ///< of the solver's
