@@ -12,19 +12,35 @@
 
 namespace dotyk::elasticity {
 
-/// Gradients in the cell's own coordinates at `xi`, and the Jacobian there.
+/// j = ∂x/∂ξ at `xi`, with ones for directions that the plane lacks, and the gradients r on the reference element.
 /// x: nodes × dim coordinates of the cell. Only their differences enter: far from the origin, too,
 /// rigid motions then strain nothing.
 template <class E>
-double physical_gradient(const double x[][E::dim], const std::array<double, E::dim>& xi,
-                         double g[][E::dim]) {
-  double r[E::nodes][E::dim], j[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+void derivative(const double x[][E::dim], const std::array<double, E::dim>& xi, double r[][E::dim], double j[3][3]) {
   E::gradient(xi, r);
-  for (int i = 0; i < E::dim; ++i)
-    for (int k = 0; k < E::dim; ++k) {
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k) {
+      j[i][k] = i == k;
+      if (i >= E::dim || k >= E::dim) continue;
       j[i][k] = 0;
       for (int a = 1; a < E::nodes; ++a) j[i][k] += (x[a][i] - x[0][i]) * r[a][k];
     }
+}
+
+/// Its determinant.
+template <class E>
+double jacobian(const double x[][E::dim], const std::array<double, E::dim>& xi) {
+  double r[E::nodes][E::dim], j[3][3];
+  derivative<E>(x, xi, r, j);
+  return j[0][0] * (j[1][1] * j[2][2] - j[1][2] * j[2][1]) + j[0][1] * (j[1][2] * j[2][0] - j[1][0] * j[2][2]) + j[0][2] * (j[1][0] * j[2][1] - j[1][1] * j[2][0]);
+}
+
+/// Gradients in the cell's own coordinates at `xi`, and the Jacobian there.
+template <class E>
+double physical_gradient(const double x[][E::dim], const std::array<double, E::dim>& xi,
+                         double g[][E::dim]) {
+  double r[E::nodes][E::dim], j[3][3];
+  derivative<E>(x, xi, r, j);
   double inverse[3][3];
   for (int i = 0; i < 3; ++i)
     for (int k = 0; k < 3; ++k) {  // cofactors; in the plane j[2][2] = 1

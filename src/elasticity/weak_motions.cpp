@@ -42,47 +42,85 @@ bool is_free(const mesh::Mesh& mesh, const Numbering& numbering, int cell) {
 
 /// Volumes, each as the Jacobian in the middle of a cell says.
 struct Volumes {
-  Vector lumped;       ///< of the cells, shared out to their nodes, in units of the whole; one entry an unknown
-  double dilated = 0;  ///< Σ volume c_iijj of the cells that are free
+  Vector lumped;          ///< of the cells, shared out to their nodes, in units of the whole; one entry a node
+  double dilated = 0;     ///< Σ volume c_iijj of the cells that are free
+  std::vector<int> held;  ///< the other cells
 };
 
 /// The last digit depends on the number of threads.
 Volumes volumes(const mesh::Mesh& mesh, const MaterialField& material, const Numbering& numbering) {
   constexpr int kFew = 100'000;  // cells, for a thread
   const double size = mesh.size();
-  const int threads = threads_for(mesh.cell_count(), kFew);
-  std::vector<Vector> shares(threads);
-  std::vector<double> dilated(static_cast<std::size_t>(threads), 0.0);
-  parallel_ranges(mesh.cell_count(), threads, [&](int k, int first, int end) {
-    shares[k] = Vector::Zero(mesh.node_count());
+  std::vector<Volumes> parts(static_cast<std::size_t>(threads_for(mesh.cell_count(), kFew)));
+  parallel_ranges(mesh.cell_count(), static_cast<int>(parts.size()), [&](int k, int first, int end) {
+    Volumes& part = parts[k];
+    part.lumped = Vector::Zero(mesh.node_count());
     dispatch(mesh.element, [&]<class E>() {
-      double x[E::nodes][E::dim], g[E::nodes][E::dim], bulk = 0;
+      double x[E::nodes][E::dim], bulk = 0;
       for (int c = first; c < end; ++c) {
-        cell_coordinates<E>(mesh, c, x);
-        double middle[E::dim] = {};
-        for (int i = 0; i < E::dim; ++i)
-          for (int a = 0; a < E::nodes; ++a) middle[i] += x[a][i] / E::nodes;
+        const int* nodes = mesh.cell(c);
         for (int a = 0; a < E::nodes; ++a)
-          for (int i = 0; i < E::dim; ++i) x[a][i] = (x[a][i] - middle[i]) / size;
-        const double volume = physical_gradient<E>(x, E::centre(), g);
-        for (int a = 0; a < E::nodes; ++a) shares[k][mesh.cell(c)[a]] += volume;
-        if (!is_free(mesh, numbering, c)) continue;
+          for (int i = 0; i < E::dim; ++i) x[a][i] = (mesh.node(nodes[a])[i] - mesh.node(nodes[0])[i]) / size;
+        const double volume = jacobian<E>(x, E::centre());
+        for (int a = 0; a < E::nodes; ++a) part.lumped[nodes[a]] += volume;
+        if (!is_free(mesh, numbering, c)) {
+          part.held.push_back(c);
+          continue;
+        }
         if (material.varies() || !(bulk > 0)) {
           const Hooke hooke = material.at(c);
           bulk = 0;
           for (int i = 0; i < E::dim; ++i)
             for (int j = 0; j < E::dim; ++j) bulk += hooke.c[i][i][j][j];
         }
-        for (int q = 0; q < E::points; ++q) dilated[k] += E::weight(q) * volume * bulk;
+        for (int q = 0; q < E::points; ++q) part.dilated += E::weight(q) * volume * bulk;
       }
     });
   });
-  for (int k = 1; k < threads; ++k) shares[0] += shares[k];
-  shares[0] /= shares[0].sum();
-  Volumes out{Vector(numbering.count())};
-  for (int k = 0; k < numbering.count(); ++k) out.lumped[k] = shares[0][numbering.node[k]];
-  out.dilated = std::accumulate(dilated.begin(), dilated.end(), 0.0) * std::pow(size, mesh.dimension());
+  Volumes& out = parts[0];
+  for (std::size_t k = 1; k < parts.size(); ++k) {
+    out.lumped += parts[k].lumped, out.dilated += parts[k].dilated;
+    out.held.insert(out.held.end(), parts[k].held.begin(), parts[k].held.end());
+  }
+  out.lumped /= out.lumped.sum();
+  out.dilated *= std::pow(size, mesh.dimension());
+  return std::move(out);
+}
+
+/// Component i at a point of the rigid motions of the frame, 3 or 6, and of a dilatation.
+template <int d>
+using Row = Eigen::Matrix<double, 1, (d == 2 ? 3 : 6) + 1>;
+template <int d>
+Row<d> row(const RigidFrame& frame, const double* x, int i) {
+  Row<d> out;
+  out << frame.row(x, i), (x[i] - frame.centre[i]) / frame.size;
   return out;
+}
+
+/// UᵀMU of those motions and, after them, those in the kernel. The last digit depends on the number of threads.
+template <int d>
+DenseMatrix gram(const mesh::Mesh& mesh, const Numbering& numbering, const RigidFrame& frame, const Vector& lumped, const DenseMatrix& kernel) {
+  constexpr int count = Row<d>::ColsAtCompileTime;
+  const Eigen::Index fixed = kernel.cols();
+  std::vector<DenseMatrix> sums(static_cast<std::size_t>(threads_for(mesh.node_count(), kFewNodes)), DenseMatrix::Zero(count + fixed, count + fixed));
+  parallel_ranges(mesh.node_count(), static_cast<int>(sums.size()), [&](int thread, int first, int end) {
+    Eigen::Matrix<double, count, count> own = Eigen::Matrix<double, count, count>::Zero();
+    DenseMatrix& sum = sums[thread];
+    for (int node = first; node < end; ++node)
+      for (int i = 0; i < d; ++i) {
+        const int unknown = numbering.unknown[static_cast<std::size_t>(node) * d + i];
+        if (unknown < 0) continue;
+        const Row<d> moved = row<d>(frame, mesh.node(node), i);
+        own += (lumped[node] * moved).transpose() * moved;
+        if (fixed == 0) continue;
+        sum.bottomLeftCorner(fixed, count) += lumped[node] * kernel.row(unknown).transpose() * moved;
+        sum.bottomRightCorner(fixed, fixed) += lumped[node] * kernel.row(unknown).transpose() * kernel.row(unknown);
+      }
+    sum.topLeftCorner(count, count) = own;
+    sum.topRightCorner(count, fixed) = sum.bottomLeftCorner(fixed, count).transpose();
+  });
+  for (std::size_t k = 1; k < sums.size(); ++k) sums[0] += sums[k];
+  return std::move(sums[0]);
 }
 
 /// The combinations of vectors, given by their Gram matrix, that are orthonormal; none of those whose square is less than `least`.
@@ -99,19 +137,19 @@ ByRows combined(const Displacements& V, const DenseMatrix& coefficients) { retur
 
 /// What the measure is made of, on the unknowns.
 struct Motions {
-  RigidFrame frame;
-  Volumes volumes;
-  const Vector& w = volumes.lumped;  ///< M
-  ByRows F;  ///< rigid motions of the frame, 3 or 6, and a dilatation: its last column
+  const RigidFrame& frame;
+  Vector w;  ///< M
+  ByRows F;  ///< as row() says: its last column is the dilatation
 
-  Motions(const mesh::Mesh& mesh, const MaterialField& material, const Numbering& numbering)
-      : frame(mesh), volumes(elasticity::volumes(mesh, material, numbering)), F(numbering.count(), frame.count() + 1) {
+  Motions(const mesh::Mesh& mesh, const Numbering& numbering, const RigidFrame& frame, const Vector& lumped)
+      : frame(frame), w(lumped(numbering.node)), F(numbering.count(), frame.count() + 1) {
     const int d = frame.dimension;
     parallel_ranges(mesh.node_count(), threads_for(mesh.node_count(), kFewNodes), [&](int, int first, int end) {
       for (std::size_t k = static_cast<std::size_t>(first) * d; k < static_cast<std::size_t>(end) * d; ++k) {
         if (numbering.unknown[k] < 0) continue;
-        const int node = static_cast<int>(k) / d, i = static_cast<int>(k) % d;
-        F.row(numbering.unknown[k]) << frame.row(mesh, k), (mesh.node(node)[i] - frame.centre[i]) / frame.size;
+        const double* x = mesh.node(static_cast<int>(k) / d);
+        const int i = static_cast<int>(k) % d;
+        d == 2 ? F.row(numbering.unknown[k]) = row<2>(frame, x, i) : F.row(numbering.unknown[k]) = row<3>(frame, x, i);
       }
     });
   }
@@ -158,52 +196,41 @@ struct Motions {
   }
 };
 
-/// FᵀKF. Rigid motions do no work in a cell that is free, and a dilatation strains such a cell uniformly: Volumes::dilated is its energy. Only cells with
-/// prescribed components, where F is zero, need their stiffness. Of curved or distorted cells the volume is approximate.
+/// FᵀKF, F as row() says. Rigid motions do no work in a cell that is free, and a dilatation strains such a cell uniformly: Volumes::dilated is its energy. Only
+/// cells with prescribed components, where F is zero, need their stiffness. Of curved or distorted cells the volume is approximate.
 template <class E>
-DenseMatrix energies(const mesh::Mesh& mesh, const MaterialField& material, const std::vector<FacetSpring>& springs, const Numbering& numbering, const Motions& motions) {
-  constexpr int d = E::dim, count = (d == 2 ? 3 : 6) + 1;
-  using Square = Eigen::Matrix<double, count, count>;
-  using Row = Eigen::Matrix<double, 1, count>;
-  const auto at = [&](int node, int i) -> Row {
-    const int unknown = numbering.unknown[static_cast<std::size_t>(node) * d + i];
-    return unknown < 0 ? Row(Row::Zero()) : Row(motions.F.row(unknown));
+DenseMatrix energies(const mesh::Mesh& mesh, const MaterialField& material, const std::vector<FacetSpring>& springs, const Numbering& numbering, const RigidFrame& frame,
+                     const Volumes& volumes) {
+  constexpr int d = E::dim, count = Row<d>::ColsAtCompileTime;
+  const auto at = [&](int node, int i) -> Row<d> {
+    return numbering.unknown[static_cast<std::size_t>(node) * d + i] < 0 ? Row<d>(Row<d>::Zero()) : row<d>(frame, mesh.node(node), i);
   };
-  constexpr int kFew = 50'000;  // cells, for a thread
-  const int threads = threads_for(mesh.cell_count(), kFew);
-  std::vector<Square> sums(static_cast<std::size_t>(threads), Square::Zero());
-  parallel_ranges(mesh.cell_count(), threads, [&](int thread, int first, int end) {
-    double x[E::nodes][d], k[E::nodes][E::nodes][d][d];
-    Hooke hooke = material.at(0);
-    Square& sum = sums[thread];
-    for (int c = first; c < end; ++c) {
-      if (is_free(mesh, numbering, c)) continue;
-      const int* n = mesh.cell(c);
-      if (material.varies()) hooke = material.at(c);
-      cell_coordinates<E>(mesh, c, x);
-      stiffness<E>(x, hooke, k);
-      Eigen::Matrix<double, E::nodes * d, E::nodes * d> whole;
-      Eigen::Matrix<double, E::nodes * d, count> F;
-      for (int a = 0; a < E::nodes; ++a)
-        for (int i = 0; i < d; ++i) {
-          F.row(a * d + i) = at(n[a], i);
-          for (int b = 0; b <= a; ++b)
-            for (int j = 0; j < d; ++j) whole(a * d + i, b * d + j) = whole(b * d + j, a * d + i) = k[a][b][i][j];
-        }
-      sum += F.transpose() * (whole * F);
-    }
-  });
-  for (int k = 1; k < threads; ++k) sums[0] += sums[k];
-  sums[0](count - 1, count - 1) += motions.volumes.dilated / (motions.frame.size * motions.frame.size);
+  double x[E::nodes][d], k[E::nodes][E::nodes][d][d];
+  Eigen::Matrix<double, count, count> sum = Eigen::Matrix<double, count, count>::Zero();
+  for (const int c : volumes.held) {
+    const int* n = mesh.cell(c);
+    cell_coordinates<E>(mesh, c, x);
+    stiffness<E>(x, material.at(c), k);
+    Eigen::Matrix<double, E::nodes * d, E::nodes * d> whole;
+    Eigen::Matrix<double, E::nodes * d, count> F;
+    for (int a = 0; a < E::nodes; ++a)
+      for (int i = 0; i < d; ++i) {
+        F.row(a * d + i) = at(n[a], i);
+        for (int b = 0; b <= a; ++b)
+          for (int j = 0; j < d; ++j) whole(a * d + i, b * d + j) = whole(b * d + j, a * d + i) = k[a][b][i][j];
+      }
+    sum += F.transpose() * (whole * F);
+  }
+  sum(count - 1, count - 1) += volumes.dilated / (frame.size * frame.size);
   for (const FacetSpring& spring : springs)
     for_each_facet_point(mesh, spring.facet, [&](const FacetPoint& p) {
       for (int i = 0; i < d; ++i) {
-        Row moved = Row::Zero();
+        Row<d> moved = Row<d>::Zero();
         for (int a = 0; a < p.nodes; ++a) moved += p.shape[a] * at(mesh.facet_node(spring.facet, a), i);
-        sums[0] += spring.stiffness[p.index][i] * p.measure * moved.transpose() * moved;
+        sum += spring.stiffness[p.index][i] * p.measure * moved.transpose() * moved;
       }
     });
-  return sums[0];
+  return sum;
 }
 
 /// The least Rayleigh quotient (K, M) on the span of V; infinite where V is nothing.
@@ -260,17 +287,23 @@ WeakMotions weak_motions(const mesh::Mesh& mesh, const MaterialField& material, 
                          const algebra::SymmetricMatrix& K, const DenseMatrix& kernel) {
   const int all = mesh.dimension() == 2 ? 3 : 6;
   if (numbering.count() == 0 || kernel.cols() == all) return {};
-  const Motions motions(mesh, material, numbering);
-  const ByRows fixed = kernel;
-  DenseMatrix gram = motions.inner(motions.rigid(), motions.rigid());
-  if (kernel.cols() > 0) gram -= algebra::product(motions.inner(motions.rigid(), fixed), motions.in_kernel(fixed, motions.rigid()));
-  const DenseMatrix T = orthonormal_combinations(gram, 1e-12);  // less what is in the kernel, or nothing on these unknowns
+  const RigidFrame frame(mesh);
+  const Volumes volumes = elasticity::volumes(mesh, material, numbering);
+  DenseMatrix G, E;
+  dispatch(mesh.element, [&]<class Element>() {
+    G = gram<Element::dim>(mesh, numbering, frame, volumes.lumped, kernel);
+    E = energies<Element>(mesh, material, springs, numbering, frame, volumes);
+  });
+  const Eigen::Index fixed = kernel.cols();
+  DenseMatrix rigid = G.topLeftCorner(all, all);  // less what is in the kernel
+  if (fixed > 0) rigid -= algebra::product(G.topRightCorner(all, fixed), algebra::Ldlt(G.bottomRightCorner(fixed, fixed)).solve(DenseMatrix(G.bottomLeftCorner(fixed, all))));
+  const DenseMatrix T = orthonormal_combinations(rigid, 1e-12);  // less nothing on these unknowns
   if (T.cols() == 0) return {};
-  const DenseMatrix E = dispatch(mesh.element, [&]<class Element>() { return energies<Element>(mesh, material, springs, numbering, motions); });
   const algebra::Eigenpairs trial = algebra::eigenpairs(algebra::product(T.transpose(), algebra::product(E.topLeftCorner(all, all), T)));
-  const double own = E(all, all) / motions.inner(motions.dilatation(), motions.dilatation())(0, 0);
+  const double own = E(all, all) / G(all, all);
   if (!std::isfinite(own) || !(trial.values[0] < kSuspicious * own)) return {};
-  const ByRows Q = motions.without(fixed, combined(motions.rigid(), T));
+  const Motions motions(mesh, numbering, frame, volumes.lumped);
+  const ByRows Q = motions.without(kernel, combined(motions.rigid(), T));
   const ByRows lost = lost_in_rounding(motions, mesh, numbering, K, combined(Q, trial.vectors));
   if (lost.cols() > 0) return {0, motions.named(lost)};
   return by_response(motions, Q, numbering, K, kernel);

@@ -33,7 +33,7 @@ class Between {
   std::vector<double> times(const std::vector<double>& v) {
     std::vector<double> product(v.size());
     each_node([&](std::size_t k, double* all, double*) { of(all) = kept_[k].cwiseProduct(factors_[k].matrixU().solve(of(v.data() + k * A_.block()))); });
-    A_.times_others(all_.data(), [&](int row, double number) { product_[row] = number; });
+    A_.times_others(all_.data(), [&](int node, const double* numbers) { std::copy_n(numbers, A_.block(), product_.begin() + node * A_.block()); });
     each_node([&](std::size_t k, double*, double* own) { of(product.data() + k * A_.block()) = factors_[k].matrixL().solve(kept_[k].cwiseProduct(of(own))); });
     return product;
   }

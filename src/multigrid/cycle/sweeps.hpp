@@ -1,6 +1,7 @@
 // Sweeps of Gauss and Seidel.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "multigrid/rows/half_matrix.hpp"
@@ -10,12 +11,13 @@ namespace dotyk::multigrid {
 /// Sweeps over the nodes of each rank, block by block, with the values that other ranks had before the sweep. Nodes that are coupled to other ranks are swept once
 /// more, with the new values: so iterations do not grow with the ranks. The time of a sweep is that of reading the matrix; so it reads the blocks beside
 /// the diagonal in single precision. Rounded blocks stay those of a symmetric matrix. A forward sweep before the coarse correction and a backward
-/// one after it make a symmetric cycle (within 1e-7 where there are several ranks, as the second sweep reads numbers that are not rounded). Vectors: of
-/// own rows. All functions are collective, except bytes().
+/// one after it make a symmetric cycle. Vectors: of own rows. All functions are collective, except bytes().
 class Sweeps {
  public:
   /// `A` must outlive this.
-  explicit Sweeps(HalfMatrix& A) : A_(A), work_(A.ranks().alone() ? 0 : static_cast<std::size_t>(A.rows()), 0.0) {}
+  explicit Sweeps(HalfMatrix& A) : A_(A) {
+    if (!A.ranks().alone()) moved_.emplace(A.block(), A.nodes());
+  }
 
   /// Takes the numbers of A, and the relaxation ω of nodes that are coupled to other ranks.
   void set(double omega);
@@ -23,20 +25,24 @@ class Sweeps {
   void forward(const double* b, double* x, double* left);
   /// x += M⁻ᵀ (b − A x).
   void backward(const double* b, double* x);
-  double bytes() const { return 4.0 * static_cast<double>(below_.size()) + 8.0 * static_cast<double>(inverse_.size() + work_.size() + border_.values.size()); }
+  double bytes() const { return 4.0 * static_cast<double>(below_.size() + border_.values.size()) + 8.0 * static_cast<double>(inverse_.size()) + (moved_ ? moved_->bytes() : 0); }
 
  private:
   HalfBlocks<float> half() const;
+  HalfBlocks<float> border() const;  ///< rows of the border's nodes, in own columns
   void take_border();
-  void sweep_border_forward(double* x, double* left);
-  void sweep_border_backward(const double* b, double* x);
+  /// residual −= A x in columns of other ranks.
+  void take_off(PaddedVector& residual, const PaddedVector& x);
 
   HalfMatrix& A_;
-  double unit_ = 1;  ///< of below_: a power of two that brings these numbers to about 1, within the range of floats
+  double unit_ = 1;  ///< of below_ and border_: a power of two that brings these numbers to about 1, within the range of floats
   std::vector<float> below_;
   std::vector<double> inverse_;
-  std::vector<double> work_;  ///< by own rows, zero but at the border
-  Rows border_;               ///< of each node of the border the own nodes that it is coupled to, itself too, and the blocks, together so that they are read in a row
+  std::optional<PaddedVector> moved_;  ///< zero but at the border; where there are several ranks
+  struct {
+    std::vector<int> starts, columns;
+    std::vector<float> values;
+  } border_;
 };
 
 /// The relaxation factor ω of such sweeps at nodes that are coupled to other ranks; 1 on one rank. A = A_local + A_between, where A_between couples nodes of

@@ -97,11 +97,14 @@ double* HalfMatrix::find(int row, int column) {
   return at.numbers ? &at.at(block(), r, c) : nullptr;
 }
 
-void HalfMatrix::fetch(const double* x) {
+void HalfMatrix::fetch(const double* x, int width) {
   sent_.resize(asked_.size());
   for (std::size_t rank = 0; rank < asked_.size(); ++rank) {
     sent_[rank].clear();
-    for (const int node : asked_[rank]) sent_[rank].insert(sent_[rank].end(), x + static_cast<std::size_t>(node) * block(), x + static_cast<std::size_t>(node + 1) * block());
+    for (const int node : asked_[rank]) {
+      const double* own = x + static_cast<std::size_t>(node) * width;
+      sent_[rank].insert(sent_[rank].end(), own, own + block());
+    }
   }
   ranks_.exchange(sent_, other_counts_, theirs_);
 }
@@ -110,7 +113,9 @@ void HalfMatrix::times(const double* x, double* y) {
   room_.x.take(x);
   multiply(half(), room_.x, room_.y);
   room_.y.give(y);
-  times_others(x, [&](int row, double number) { y[row] += number; });
+  times_others(x, [&](int node, const double* numbers) {
+    for (int r = 0; r < block(); ++r) y[node * block() + r] += numbers[r];
+  });
 }
 
 Rows HalfMatrix::full(const std::vector<int>& rows) const {

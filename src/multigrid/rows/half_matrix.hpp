@@ -110,25 +110,18 @@ class HalfMatrix {
 
   /// y = A x for vectors of own rows. Collective.
   void times(const double* x, double* y);
-  /// The same in columns of other ranks alone: calls add(row, number) for own rows where there are such. Collective.
+  /// The same in columns of other ranks alone: calls add(node, numbers) for own nodes where there are such, with the numbers of their rows. Collective.
   template <class Add>
   void times_others(const double* x, const Add& add) {
-    if (ranks_.alone()) return;
-    fetch(x);
-    const int n = block();
-    for (const int node : border_)
-      for (int r = 0; r < n; ++r) {
-        double sum = 0;
-        for (int k = rows_.other_starts[node]; k < rows_.other_starts[node + 1]; ++k) {
-          const double *row = rows_.other.data() + (static_cast<std::int64_t>(k) * n + r) * n, *theirs = theirs_.data() + static_cast<std::int64_t>(other_places_[k]) * n;
-          for (int c = 0; c < n; ++c) sum += row[c] * theirs[c];
-        }
-        add(node * n + r, sum);
-      }
+    times_others(x, block(), add);
+  }
+  template <class Add>
+  void times_others(const PaddedVector& x, const Add& add) {
+    times_others(x.data(), x.width(), add);
   }
   /// A vector of own rows at others(). Collective.
   const std::vector<double>& theirs(const double* x) {
-    if (!ranks_.alone()) fetch(x);
+    if (!ranks_.alone()) fetch(x, block());
     return theirs_;
   }
   const std::vector<std::vector<int>>& asked() const { return asked_; }  ///< by rank the own nodes that are among its others()
@@ -148,7 +141,24 @@ class HalfMatrix {
     visit(node, rows.diagonal.data() + node * square);
     for (int k = rows.other_starts[node]; k < rows.other_starts[node + 1]; ++k) visit(self.nodes() + self.other_places_[k], rows.other.data() + k * square);
   }
-  void fetch(const double* x);
+  /// `width`: numbers of a node in x.
+  void fetch(const double* x, int width);
+  template <class Add>
+  void times_others(const double* x, int width, const Add& add) {
+    if (ranks_.alone()) return;
+    fetch(x, width);
+    dispatch(block(), [&]<int rows>() {
+      for (const int node : border_) {
+        double sums[rows] = {};
+        for (int k = rows_.other_starts[node]; k < rows_.other_starts[node + 1]; ++k) {
+          const double *numbers = rows_.other.data() + static_cast<std::int64_t>(k) * (rows * rows), *theirs = theirs_.data() + static_cast<std::int64_t>(other_places_[k]) * rows;
+          for (int r = 0; r < rows; ++r)
+            for (int c = 0; c < rows; ++c) sums[r] += numbers[r * rows + c] * theirs[c];
+        }
+        add(node, sums);
+      }
+    });
+  }
 
   Ranks ranks_;
   HalfRows rows_;

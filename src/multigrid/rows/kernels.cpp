@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <stdexcept>
 
 // Each block of L is read once. It serves its row, and by its transpose the rows above it. Rows of blocks are read as vectors of the compiler's, with lanes
 // beyond a node's numbers. The results in these lanes go into padding, which is never read.
@@ -125,6 +124,32 @@ struct Kernel {
       spread(i, -1, xi, b);
     }
   }
+
+  [[gnu::always_inline]] void forward(std::span<const int> nodes, const double* inverse, double* x, double* left, double* moved) const {
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      const int i = nodes[k];
+      double own_left[rows], xi[rows], by[rows] = {};
+      copy(at(x, i), xi), copy(at(left, i), own_left);
+      add_product(block(inverse, i), 1, own_left, by);
+      for (int r = 0; r < rows; ++r) xi[r] += by[r];
+      add_product(block(A.diagonal, i), -1, by, own_left);
+      copy(xi, at(x, i)), copy(own_left, at(left, i)), copy(by, at(moved, i));
+      spread(static_cast<int>(k), -1, by, left);
+    }
+  }
+
+  [[gnu::always_inline]] void backward(std::span<const int> nodes, const double* inverse, double* b, double* beyond, double* x) const {
+    for (std::size_t k = nodes.size(); k-- > 0;) {
+      const int i = nodes[k];
+      double sum[rows], own_left[rows], xi[rows], from_beyond[rows];
+      gather(static_cast<int>(k), x, sum);
+      copy(at(x, i), xi), copy(at(b, i), own_left), copy(at(beyond, i), from_beyond);
+      for (int r = 0; r < rows; ++r) own_left[r] -= from_beyond[r] + sum[r];
+      add_product(block(A.diagonal, i), -1, xi, own_left);
+      add_product(block(inverse, i), 1, own_left, xi);
+      copy(xi, at(x, i));
+    }
+  }
 };
 
 #ifdef __x86_64__
@@ -137,20 +162,6 @@ struct Kernel {
 DOTYK_CLONES void multiply_of_three(const HalfBlocks<double>& A, double* x, double* y) { Kernel<3, double>{A}.multiply(x, y); }
 DOTYK_CLONES void forward_of_three(const HalfBlocks<float>& A, const double* inverse, double* x, double* left) { Kernel<3, float>{A}.forward(inverse, x, left); }
 DOTYK_CLONES void backward_of_three(const HalfBlocks<float>& A, const double* inverse, double* b, double* x) { Kernel<3, float>{A}.backward(inverse, b, x); }
-
-/// Calls work.operator()<rows>() with the size as a constant.
-template <class Work>
-void dispatch(int size, const Work& work) {
-  switch (size) {
-    case 1: return work.template operator()<1>();
-    case 2: return work.template operator()<2>();
-    case 3: return work.template operator()<3>();
-    case 4: return work.template operator()<4>();
-    case 5: return work.template operator()<5>();
-    case 6: return work.template operator()<6>();
-    default: throw std::logic_error("multigrid: blocks of this size have no kernel");
-  }
-}
 
 }  // namespace
 
@@ -218,6 +229,14 @@ void sweep_forward(const HalfBlocks<float>& A, const double* inverse, PaddedVect
 void sweep_backward(const HalfBlocks<float>& A, const double* inverse, PaddedVector& b, PaddedVector& x) {
   if (A.size == 3) return backward_of_three(A, inverse, b.data(), x.data());
   dispatch(A.size, [&]<int rows>() { Kernel<rows, float>{A}.backward(inverse, b.data(), x.data()); });
+}
+
+void sweep_forward(const HalfBlocks<float>& rows, std::span<const int> nodes, const double* inverse, PaddedVector& x, PaddedVector& left, PaddedVector& moved) {
+  dispatch(rows.size, [&]<int count>() { Kernel<count, float>{rows}.forward(nodes, inverse, x.data(), left.data(), moved.data()); });
+}
+
+void sweep_backward(const HalfBlocks<float>& rows, std::span<const int> nodes, const double* inverse, PaddedVector& b, PaddedVector& beyond, PaddedVector& x) {
+  dispatch(rows.size, [&]<int count>() { Kernel<count, float>{rows}.backward(nodes, inverse, b.data(), beyond.data(), x.data()); });
 }
 
 }  // namespace dotyk::multigrid
