@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 #include <memory>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -29,6 +30,9 @@ class BlockOfSlices final : public SlicedMatrix {
     own = SparseMatrix(near.block(first_, first_, std::ssize(of), std::ssize(of)));
     return own;
   }
+
+  std::shared_ptr<Vectors> vectors(const std::vector<int>&) const override { throw std::logic_error("a block of slices has no vectors"); }
+  void take_product(const LongField&, bool, Field&) const override { throw std::logic_error("a block of slices has no vectors"); }
 
   const SlicedMatrix& whole() const { return *whole_; }
   Eigen::Index first() const { return first_; }  ///< its first unknown among those of the whole

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "algebra/direct/ordering.hpp"
-#include "algebra/types.hpp"
+#include "algebra/field.hpp"
 #include "base/monitor.hpp"
 
 namespace dotyk::algebra {
@@ -20,6 +20,18 @@ class SpdSolver {
   /// x with ‖b − A x‖ ≤ tolerance ‖b‖; direct solvers go as far as rounding lets them, whatever the tolerance. `left`, where it is given: b − A x, as
   /// iterations know it; direct solvers leave it as it is.
   virtual Vector solve(const Vector& b, double tolerance, Vector* left = nullptr) = 0;
+  struct Solved {
+    bool found = true;       ///< else x has no meaning
+    bool left_told = false;  ///< as iterations know it
+  };
+  /// The same for vectors that lie in one place. b is as before at the end, but may change meanwhile.
+  virtual Solved solve_fields(Field& b, double tolerance, Field& x, Field& left) {
+    Vector rest;
+    const Vector solution = solve(b.get(), tolerance, &rest);
+    x.put(solution);
+    if (rest.size() > 0) left.put(rest);
+    return {solution.allFinite(), rest.size() > 0};
+  }
   /// Does the work grow with the digits asked for?
   virtual bool iterates() const { return true; }
   virtual int iterations() const { return 0; }  ///< of all calls of solve() together, where it tells

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "algebra/entries_of.hpp"
+#include "algebra/field.hpp"
 #include "algebra/symmetric_product.hpp"
 
 namespace dotyk::algebra {
@@ -23,6 +24,10 @@ class SlicedMatrix {
   /// Flags so many layers of neighbours in `of` as well, and returns the lower triangle with the entries in rows and columns of flagged unknowns alone.
   /// Throws InputError where there is not enough memory.
   virtual StoredMatrix near(std::vector<char>& of, int layers = 0) const = 0;
+  /// Vectors that lie where the rows do; `watched`: unknowns, ascending. And from −= A u for such vectors, in extended precision or with u.high alone.
+  /// Not of a block.
+  virtual std::shared_ptr<Vectors> vectors(const std::vector<int>& watched) const = 0;
+  virtual void take_product(const LongField& u, bool precisely, Field& from) const = 0;
 
   const Vector& diagonal() const { return diagonal_; }
   int most_entries() const { return most_entries_; }  ///< at least as many as any row has

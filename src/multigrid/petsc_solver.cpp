@@ -71,15 +71,17 @@ class PetscSolver final : public algebra::SpdSolver {
   algebra::Vector solve(const algebra::Vector& b, double tolerance, algebra::Vector* left) override {
     const auto unknowns = static_cast<Eigen::Index>(numbering_->slot().size());
     if (b.size() != unknowns) throw std::runtime_error(text("a right-hand side of ", b.size(), " numbers for ", unknowns, " unknowns"));
-    const std::lock_guard lock(only_one());
-    const Ranks& ranks = workers_.ranks();
-    algebra::Vector x(unknowns);
-    if (left) left->resize(unknowns);
-    const Cycle::Solution own = ranks.together([&] { return solve_together(b, tolerance, x, left); });
-    iterations_ += own.iterations;
-    if (own.thrown) std::rethrow_exception(own.thrown);
-    if (!own.found) x.setConstant(std::numeric_limits<double>::quiet_NaN());
-    return x;
+    const auto room = std::make_shared<RankVectors>(workers_, numbering_, std::vector<int>());
+    algebra::Field given(room), x(room), rest(room);
+    given.put(b);
+    const Solved solved = solve_in(*room, given, tolerance, x, rest);
+    if (left) *left = rest.get();
+    return solved.found ? x.get() : algebra::Vector::Constant(unknowns, std::numeric_limits<double>::quiet_NaN());
+  }
+
+  Solved solve_fields(algebra::Field& b, double tolerance, algebra::Field& x, algebra::Field& left) override {
+    auto* of_ranks = dynamic_cast<RankVectors*>(b.where().get());
+    return of_ranks && &of_ranks->numbering() == numbering_.get() ? solve_in(*of_ranks, b, tolerance, x, left) : SpdSolver::solve_fields(b, tolerance, x, left);
   }
 
   double bytes() const override {
@@ -114,23 +116,18 @@ class PetscSolver final : public algebra::SpdSolver {
     if (slices_) take_matrix(own, slices_->own());
     return own;
   }
-  /// Puts the solution of all ranks into x, and what is left, where it is asked for; returns that of rank 0.
-  Cycle::Solution solve_together(const algebra::Vector& b, double tolerance, algebra::Vector& x, algebra::Vector* left) {
+  Solved solve_in(RankVectors& room, const algebra::Field& b, double tolerance, algebra::Field& x, algebra::Field& left) {
+    const std::lock_guard lock(only_one());
     const Ranks& ranks = workers_.ranks();
-    const auto given = [&](int i) { return b[i]; };
-    std::vector<std::vector<double>> parts;  // made before the others begin and keep cores busy
-    for (int r = 0; r < ranks.count(); ++r) parts.push_back(numbering_->part(r, given));
-    workers_.tell(Task::solve);
-    for (int r = 1; r < ranks.count(); ++r) ranks.send(r, std::vector<double>{tolerance, most_}), ranks.send(r, std::exchange(parts[r], {}));
-    Cycle::Solution own = cycle_->solve(parts[0], tolerance, most_, &monitor_);
-    std::vector<double> part;
-    for (int r = 0; r < ranks.count(); ++r) {
-      if (r > 0) ranks.receive(r, part);
-      numbering_->put(r, r > 0 ? part : own.x, x);
-      if (r > 0) ranks.receive(r, part);
-      if (left) numbering_->put(r, r > 0 ? part : own.left, *left);
-    }
-    return own;
+    const Cycle::Solution own = ranks.together([&] {
+      workers_.tell(Task::solve);
+      for (int r = 1; r < ranks.count(); ++r)
+        ranks.send(r, std::vector<int>{room.number(), b.number(), x.number(), left.number()}), ranks.send(r, std::vector<double>{tolerance, most_});
+      return cycle_->solve(room.own()[b.number()], tolerance, most_, &monitor_, room.own()[x.number()], room.own()[left.number()]);
+    });
+    iterations_ += own.iterations;
+    if (own.thrown) std::rethrow_exception(own.thrown);
+    return {own.found, true};
   }
 
   std::unique_lock<std::mutex> alone_{only_one()};  // while the members after it are made, and while they are destroyed

@@ -76,14 +76,6 @@ std::unique_ptr<Slice> receive_slice(const Ranks& ranks, Assemble assemble) {
   return told_slice(ranks, assembled(assemble, std::move(lists), own), own.idle);
 }
 
-void multiply(const Ranks& ranks, Slice& slice) {
-  std::vector<int> how;
-  ranks.receive(0, how);
-  std::vector<std::vector<double>> x(static_cast<std::size_t>(how[1]));
-  for (auto& part : x) ranks.receive(0, part);
-  for (const auto& part : slice.times(static_cast<Slice::Product>(how[0]), x)) ranks.send(0, part);
-}
-
 void tell_some(const Ranks& ranks, const Slice& slice) {
   std::vector<int> rows;
   ranks.receive(0, rows);
@@ -163,43 +155,42 @@ void RankSlices::take_diagonal() {
   }
 }
 
-/// Of a vector, or of several whose sum is the factor: of_unknown(i) are their numbers.
-template <class... Number>
-std::array<Vector, sizeof...(Number)> RankSlices::product(Slice::Product how, const Number&... of_unknown) const {
+std::shared_ptr<algebra::Vectors> RankSlices::vectors(const std::vector<int>& watched) const { return std::make_shared<RankVectors>(workers_, numbering_, watched); }
+
+void RankSlices::multiply(Slice::Product how, RankVectors& v, const Slice::Factors& of) const {
   const std::lock_guard lock(only_one());
   const Ranks& ranks = workers_.ranks();
-  return ranks.together([&] {
-    std::vector<std::vector<std::vector<double>>> given(static_cast<std::size_t>(ranks.count()));  // made before the others begin and keep cores busy
-    for (int r = 0; r < ranks.count(); ++r) (given[r].push_back(numbering_->part(r, of_unknown)), ...);
+  ranks.together([&] {
     workers_.tell(Task::multiply);
-    for (int r = 1; r < ranks.count(); ++r) {
-      ranks.send(r, std::vector<int>{static_cast<int>(how), static_cast<int>(sizeof...(Number))});
-      for (auto& part : std::exchange(given[r], {})) ranks.send(r, part);
-    }
-    std::vector<std::vector<double>> parts = slice_->times(how, given[0]);
-    std::array<Vector, sizeof...(Number)> y;
-    for (Vector& all : y) all.resize(diagonal_.size());
-    for (int r = 0; r < ranks.count(); ++r)
-      for (std::size_t k = 0; k < y.size(); ++k) {
-        if (r > 0) ranks.receive(r, parts[k]);
-        numbering_->put(r, parts[k], y[k]);
-      }
-    return y;
+    for (int r = 1; r < ranks.count(); ++r) ranks.send(r, std::vector<int>{v.number(), static_cast<int>(how), of.x, of.x_low, of.y, of.y_low});
+    slice_->multiply(how, v.own(), of);
   });
 }
 
-Vector RankSlices::times(const Eigen::Ref<const Vector>& x) const {
-  return std::move(product(Slice::Product::plain, [&](int i) { return x[i]; })[0]);
+void RankSlices::take_product(const algebra::LongField& u, bool precisely, algebra::Field& from) const {
+  multiply(precisely ? Slice::Product::taken_precisely : Slice::Product::taken, static_cast<RankVectors&>(*from.where()),
+           {u.high.number(), u.low.number(), from.number(), 0});
 }
 
-Vector RankSlices::gross_times(const Vector& x) const {
-  return std::move(product(Slice::Product::gross, [&](int i) { return std::abs(x[i]); })[0]);
+Vector RankSlices::product(Slice::Product how, const Vector& x) const {
+  const auto room = std::make_shared<RankVectors>(workers_, numbering_, std::vector<int>());
+  algebra::Field factor(room), result(room);
+  factor.put(x);
+  multiply(how, *room, {factor.number(), 0, result.number(), 0});
+  return result.get();
 }
+
+Vector RankSlices::times(const Eigen::Ref<const Vector>& x) const { return product(Slice::Product::plain, x); }
+
+Vector RankSlices::gross_times(const Vector& x) const { return product(Slice::Product::gross, x.cwiseAbs()); }
 
 LongVector RankSlices::times(const Eigen::Ref<const LongVector>& x) const {
-  const auto high = [&](int i) { return static_cast<double>(x[i]); };
-  const auto y = product(Slice::Product::precise, high, [&](int i) { return static_cast<double>(x[i] - high(i)); });
-  return y[0].cast<long double>() + y[1].cast<long double>();
+  const auto room = std::make_shared<RankVectors>(workers_, numbering_, std::vector<int>());
+  algebra::LongField factor{algebra::Field(room), algebra::Field(room)}, result = factor;
+  const Vector high = x.cast<double>();
+  factor.high.put(high), factor.low.put((x - high.cast<long double>()).cast<double>());
+  multiply(Slice::Product::precise, *room, {factor.high.number(), factor.low.number(), result.high.number(), result.low.number()});
+  return result.high.get().cast<long double>() + result.low.get().cast<long double>();
 }
 
 namespace {

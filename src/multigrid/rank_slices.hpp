@@ -1,10 +1,10 @@
 // A matrix in slices, as rank 0 has it.
 #pragma once
 
-#include <array>
 #include <memory>
 #include <vector>
 
+#include "multigrid/rank_vectors.hpp"
 #include "multigrid/rows/slice.hpp"
 #include "multigrid/shares/numbering.hpp"
 #include "multigrid/workers.hpp"
@@ -23,6 +23,8 @@ class RankSlices final : public algebra::SlicedMatrix {
   algebra::LongVector times(const Eigen::Ref<const algebra::LongVector>& x) const override;
   algebra::Vector gross_times(const algebra::Vector& x) const override;
   algebra::StoredMatrix near(std::vector<char>& of, int layers) const override;
+  std::shared_ptr<algebra::Vectors> vectors(const std::vector<int>& watched) const override;
+  void take_product(const algebra::LongField& u, bool precisely, algebra::Field& from) const override;
 
   const Workers& workers() const { return workers_; }
   const std::shared_ptr<const Numbering>& numbering() const { return numbering_; }
@@ -39,8 +41,8 @@ class RankSlices final : public algebra::SlicedMatrix {
     std::vector<Rows> rows;                 ///< by rank
   };
   Asked ask(const std::vector<int>& unknowns) const;
-  template <class... Number>
-  std::array<algebra::Vector, sizeof...(Number)> product(Slice::Product how, const Number&... of_unknown) const;
+  void multiply(Slice::Product how, RankVectors& v, const Slice::Factors& of) const;
+  algebra::Vector product(Slice::Product how, const algebra::Vector& x) const;
 
   Workers workers_;
   std::shared_ptr<const Numbering> numbering_;
@@ -49,10 +51,9 @@ class RankSlices final : public algebra::SlicedMatrix {
   bool made_ = false;  ///< to its end: the other ranks have their slices
 };
 
-/// What ranks other than 0 do when rank 0 makes slices, multiplies with them, or asks for entries.
+/// What ranks other than 0 do when rank 0 makes slices, or asks for entries.
 std::unique_ptr<Slice> receive_slice(const Ranks& ranks, Assemble assemble);
 std::unique_ptr<Slice> receive_rest(const Ranks& ranks, HalfRows rows);
-void multiply(const Ranks& ranks, Slice& slice);
 void tell_some(const Ranks& ranks, const Slice& slice);
 
 }  // namespace dotyk::multigrid

@@ -11,6 +11,7 @@
 #include "multigrid/cycle/cycle.hpp"
 #include "multigrid/processes/death_watch.hpp"
 #include "multigrid/rank_slices.hpp"
+#include "multigrid/rank_vectors.hpp"
 
 namespace dotyk::multigrid {
 
@@ -80,13 +81,21 @@ std::unique_ptr<Cycle> make(Slices& slices) {
   return cycle;
 }
 
-void solve(Cycle& cycle) {
-  std::vector<double> ending, b;
+using Vectors = std::map<int, algebra::VectorParts>;
+
+void solve(Cycle& cycle, Vectors& vectors) {
+  std::vector<int> which;
+  std::vector<double> ending;
+  world().receive(0, which);
   world().receive(0, ending);
-  world().receive(0, b);
-  const Cycle::Solution solution = cycle.solve(b, ending[0], ending[1], nullptr);
-  world().send(0, solution.x);
-  world().send(0, solution.left);
+  algebra::VectorParts& own = vectors.at(which[0]);
+  cycle.solve(own[which[1]], ending[0], ending[1], nullptr, own[which[2]], own[which[3]]);
+}
+
+void multiply(Slice& slice, Vectors& vectors) {
+  std::vector<int> which;
+  world().receive(0, which);
+  slice.multiply(static_cast<Slice::Product>(which[1]), vectors.at(which[0]), {which[2], which[3], which[4], which[5]});
 }
 
 /// Where solvers still live, as when a script ends by os.exit, PETSc cannot be ended: MPI alone is.
@@ -162,6 +171,7 @@ void work(bool spawned, Assemble assemble) {
   }
   std::map<int, std::unique_ptr<Cycle>> cycles;  // outlive an exception: PETSc may crash where it destroys a solver that failed, before the reason is told
   Slices slices;
+  Vectors vectors;
   world().together([&] {
     for (;;) {
       const std::vector<int> order = next_task();
@@ -169,12 +179,19 @@ void work(bool spawned, Assemble assemble) {
       switch (static_cast<Task>(order[0])) {
         case Task::make: cycles[solver] = make(slices); break;
         case Task::set: cycles.at(solver)->set(receive_change(world(), 0)); break;
-        case Task::solve: solve(*cycles.at(solver)); break;
+        case Task::solve: solve(*cycles.at(solver), vectors); break;
         case Task::drop: cycles.erase(solver); break;
         case Task::slice: slices[solver] = receive_slice(world(), assemble); break;
-        case Task::multiply: multiply(world(), *slices.at(solver)); break;
+        case Task::multiply: multiply(*slices.at(solver), vectors); break;
         case Task::some: tell_some(world(), *slices.at(solver)); break;
         case Task::drop_slice: slices.erase(solver); break;
+        case Task::vectors: vectors.insert_or_assign(solver, receive_vectors(world())); break;
+        case Task::order: run_order(world(), vectors.at(solver)); break;
+        case Task::get:
+        case Task::put:
+        case Task::watched:
+        case Task::set_watched: exchange_numbers(world(), static_cast<Task>(order[0]), vectors.at(solver)); break;
+        case Task::drop_vectors: vectors.erase(solver); break;
         case Task::end:
           stop_watching();
           if (!solver)

@@ -8,17 +8,17 @@
 
 namespace dotyk::multigrid {
 
-enum class Task : int { make, set, solve, drop, slice, multiply, some, drop_slice, end };
+enum class Task : int { make, set, solve, drop, slice, multiply, some, drop_slice, vectors, order, get, put, watched, set_watched, drop_vectors, end };
 
-/// How rank 0 tells the other ranks what to do for one solver, or for the slices of one matrix. The data of a task are sent after it.
+/// How rank 0 tells the other ranks what to do for one solver, for the slices of one matrix, or for some vectors. The data of a task are sent after it.
 class Workers {
  public:
   Workers(const Ranks& ranks, int number) : ranks_(ranks), number_(number) {}
   const Ranks& ranks() const { return ranks_; }
   void tell(Task task) const;
   void tell(Task task, int rank) const;  ///< the same to one rank
-  Workers next() const;                  ///< the same ranks, for another solver or other slices
-  int number() const { return number_; }  ///< by which the ranks know the solver or the slices, from 1
+  Workers next() const;                  ///< the same ranks, for another solver, other slices or vectors
+  int number() const { return number_; }  ///< by which the ranks know these, from 1
   void made() const;  ///< the solver, or the slices, live, until they tell `drop` or `drop_slice`
 
  private:

@@ -185,4 +185,12 @@ Vector stiffness_times(const Problem& problem, const Vector& u) { return times<L
 LongVector precise_stiffness_times(const Problem& problem, const LongVector& u) { return times(problem, u); }
 Vector rough_stiffness_times(const Problem& problem, const Vector& u) { return times(problem, u); }
 
+void take_stiffness_times(const Problem& problem, const algebra::LongField& u, bool precisely, algebra::Field& from) {
+  if (const auto* all = slices(problem)) return all->take_product(u, precisely, from);
+  const Vector high = u.high.get();
+  if (!precisely) return from.put(from.get() - times(problem, high));
+  const LongVector product = times(problem, LongVector(high.cast<long double>() + u.low.get().cast<long double>()));
+  from.put((from.get().cast<long double>() - product).cast<double>());
+}
+
 }  // namespace dotyk::problem

@@ -1,22 +1,23 @@
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <utility>
 #include <vector>
 
-#include "algebra/types.hpp"
+#include "algebra/field.hpp"
 
 namespace dotyk::algebra {
 
 /// What is left of the equations A u = b, and how much of it in ‖·‖₁ may be.
 struct Remainder {
-  Vector left;
+  Field left;
   double enough;
 };
 
 /// A change of u, and what of the remainder it takes away.
 struct ResidualDirection {
-  Vector u, change;
+  Field u, change;
 };
 
 /// Generalised conjugate residuals for a matrix that need not be symmetric (Eisenstat, Elman and Schultz, SIAM J. Numer. Anal. 20 (1983)), begun anew after
@@ -27,27 +28,30 @@ void conjugate_residuals(const Arrive& arrive, const Direct& direct) {
   constexpr int kMost = 60;
   constexpr std::size_t kKept = 20;
   constexpr double kCancelled = 1e-24;  // of ‖change‖²
-  std::vector<ResidualDirection> directions;
-  std::optional<Vector> total;
+  std::vector<std::pair<ResidualDirection, double>> directions;  // with ‖change‖²
+  std::optional<Field> total;
   Remainder rest = arrive(total);
   const auto arrived = [&] {
     if (total) rest = arrive(total), total.reset(), directions.clear();
-    return rest.left.template lpNorm<1>() <= rest.enough;
+    return rest.left.moduli() <= rest.enough;
   };
-  for (int k = 0; k < kMost && rest.left.allFinite(); ++k) {
-    if ((rest.left.template lpNorm<1>() <= rest.enough || directions.size() == kKept) && arrived()) return;
-    ResidualDirection d = direct(rest.left);
-    const double whole = d.change.squaredNorm();
-    for (const ResidualDirection& old : directions) {
-      const double share = d.change.dot(old.change) / old.change.squaredNorm();
-      d.u -= share * old.u, d.change -= share * old.change;
+  for (int k = 0; k < kMost; ++k) {
+    const double left = rest.left.moduli();
+    if (!std::isfinite(left)) break;
+    if ((left <= rest.enough || directions.size() == kKept) && arrived()) return;
+    ResidualDirection d = direct(rest.left);  // may change it meanwhile
+    const double whole = d.change.dot(d.change);
+    for (const auto& [old, size] : directions) {
+      const double share = d.change.dot(old.change) / size;
+      d.u.add(-share, old.u), d.change.add(-share, old.change);
     }
-    const double size = d.change.squaredNorm();
+    const double size = d.change.dot(d.change);
     if (!(size > kCancelled * whole)) break;
     const double step = rest.left.dot(d.change) / size;
-    total = total ? Vector(*total + step * d.u) : Vector(step * d.u);
-    rest.left -= step * d.change;
-    directions.push_back(std::move(d));
+    if (!total) total.emplace(d.u.where());
+    total->add(step, d.u);
+    rest.left.add(-step, d.change);
+    directions.emplace_back(std::move(d), size);
   }
   if (total) arrive(total);
 }

@@ -117,7 +117,7 @@ bool Cycle::stopped(Monitor* monitor, Solution& solution) const {
   return stop != 0;
 }
 
-Cycle::Solution Cycle::solve(const std::vector<double>& b, double tolerance, double most, Monitor* monitor) {
+Cycle::Solution Cycle::solve(const std::vector<double>& b, double tolerance, double most, Monitor* monitor, std::vector<double>& x, std::vector<double>& left) {
   std::copy(b.begin(), b.end(), static_cast<double*>(Numbers(left_)));
   check(VecSet(x_, 0));
   Solution solution;
@@ -138,11 +138,9 @@ Cycle::Solution Cycle::solve(const std::vector<double>& b, double tolerance, dou
     before = product, residual = norm(left_), ++solution.iterations;
   }
   solution.found = residual <= tolerance * first;
-  const auto numbers = [&](Vec of) {
-    const ReadNumbers own(of);
-    return std::vector<double>(own + 0, own + b.size());
-  };
-  solution.x = numbers(x_), solution.left = numbers(left_);
+  const std::size_t count = b.size();
+  const ReadNumbers of_x(x_), of_left(left_);
+  x.assign(of_x + 0, of_x + count), left.assign(of_left + 0, of_left + count);
   return solution;
 }
 

@@ -22,12 +22,11 @@ class Cycle {
   struct Solution {
     bool found = false;  ///< else x has no meaning: an indefinite matrix, too many iterations
     int iterations = 0;
-    std::vector<double> x, left;  ///< left: b − A x, carried along
     std::exception_ptr thrown;  ///< by the monitor
   };
-  /// x with ‖b − A x‖ ≤ tolerance ‖b‖, by the residual that conjugate gradients carry along; b, x and left: of this rank's rows. `most`: iterations that the rate
-  /// of convergence may foretell. `monitor`: rank 0's, which each iteration asks, null on the others; where it throws, all stop.
-  Solution solve(const std::vector<double>& b, double tolerance, double most, Monitor* monitor);
+  /// x with ‖b − A x‖ ≤ tolerance ‖b‖, by the residual that conjugate gradients carry along, which becomes `left`. Of this rank's rows. `most`: iterations that the
+  /// rate of convergence may foretell. `monitor`: rank 0's, which each iteration asks, null on the others; where it throws, all stop.
+  Solution solve(const std::vector<double>& b, double tolerance, double most, Monitor* monitor, std::vector<double>& x, std::vector<double>& left);
 
   int levels() const { return hierarchy_.levels(); }
   double bytes() const { return bytes_; }  ///< of all ranks, after the last set()

@@ -57,24 +57,10 @@ std::vector<long double> sum(const std::vector<double>& high, const std::vector<
   return all;
 }
 
-std::vector<std::vector<double>> product(HalfMatrix& A, Slice::Product how, const std::vector<std::vector<double>>& x) {
-  std::vector<std::vector<double>> y(x.size());
-  switch (how) {
-    case Slice::Product::plain:
-      y[0].resize(x[0].size());
-      A.times(x[0].data(), y[0].data());
-      break;
-    case Slice::Product::gross: y[0] = product(A, x[0], A.theirs(x[0].data()), [](double a) { return std::abs(a); }); break;
-    case Slice::Product::precise: {
-      const std::vector<double> high = A.theirs(x[0].data());
-      y[0].reserve(x[0].size()), y[1].reserve(x[0].size());
-      for (const long double number : product(A, sum(x[0], x[1]), sum(high, A.theirs(x[1].data())), [](double a) { return a; })) {
-        y[0].push_back(static_cast<double>(number));
-        y[1].push_back(static_cast<double>(number - y[0].back()));
-      }
-    }
-  }
-  return y;
+/// A (x + low) in extended precision.
+std::vector<long double> precise_product(HalfMatrix& A, const std::vector<double>& x, const std::vector<double>& low) {
+  const std::vector<double> theirs = A.theirs(x.data());
+  return product(A, sum(x, low), sum(theirs, A.theirs(low.data())), [](double a) { return a; });
 }
 
 }  // namespace
@@ -106,8 +92,31 @@ double Slice::entries() const {
   return static_cast<double>(2 * rows.below.size() + rows.diagonal.size() + rows.other.size());
 }
 
-std::vector<std::vector<double>> Slice::times(Product how, const std::vector<std::vector<double>>& x) {
-  return matrix_->as_before([&](HalfMatrix& A) { return product(A, how, x); });
+void Slice::multiply(Product how, algebra::VectorParts& v, const Factors& of) {
+  const std::vector<double>& x = v[of.x];
+  std::vector<double>& y = v[of.y];
+  matrix_->as_before([&](HalfMatrix& A) {
+    switch (how) {
+      case Product::plain: return A.times(x.data(), y.data());
+      case Product::gross: y = product(A, x, A.theirs(x.data()), [](double a) { return std::abs(a); }); return;
+      case Product::taken: {
+        std::vector<double> times(x.size());
+        A.times(x.data(), times.data());
+        for (std::size_t i = 0; i < y.size(); ++i) y[i] -= times[i];
+        return;
+      }
+      case Product::taken_precisely: {
+        const std::vector<long double> times = precise_product(A, x, v[of.x_low]);
+        for (std::size_t i = 0; i < y.size(); ++i) y[i] = static_cast<double>(y[i] - times[i]);
+        return;
+      }
+      case Product::precise: {
+        const std::vector<long double> times = precise_product(A, x, v[of.x_low]);
+        std::vector<double>& low = v[of.y_low];
+        for (std::size_t i = 0; i < y.size(); ++i) y[i] = static_cast<double>(times[i]), low[i] = static_cast<double>(times[i] - y[i]);
+      }
+    }
+  });
 }
 
 }  // namespace dotyk::multigrid

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "algebra/vector_parts.hpp"
 #include "multigrid/rows/half_matrix.hpp"
 
 namespace dotyk::multigrid {
@@ -54,7 +55,7 @@ class LentMatrix {
   std::vector<Number> before_;  ///< the slice's, by place
 };
 
-/// times() and the constructor are collective.
+/// multiply() and the constructor are collective.
 class Slice {
  public:
   /// `idle`: own rows without unknown. Their diagonal becomes the mean of all others.
@@ -77,9 +78,13 @@ class Slice {
     return matrix_->as_before([&](HalfMatrix& A) { return A.full(rows); });
   }
 
-  enum class Product : int { plain, precise, gross };
-  /// A x, or |A| x, of own rows. `precise`: in extended precision, where x and the product are each the sum of two vectors.
-  std::vector<std::vector<double>> times(Product how, const std::vector<std::vector<double>>& x);
+  enum class Product : int { plain, gross, precise, taken, taken_precisely };
+  /// The vectors of a product, of own rows.
+  struct Factors {
+    int x, x_low, y, y_low;
+  };
+  /// y = A x; |A| x; y + y_low = A (x + x_low) in extended precision; y −= A x; y −= A (x + x_low).
+  void multiply(Product how, algebra::VectorParts& v, const Factors& of);
 
  private:
   std::shared_ptr<LentMatrix> matrix_;

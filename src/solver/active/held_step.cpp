@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "algebra/krylov/conjugate_residuals.hpp"
-#include "base/parallel.hpp"
 #include "base/text.hpp"
 #include "solver/active/held_stiffness.hpp"
 #include "solver/active/step.hpp"
@@ -13,6 +12,7 @@
 namespace dotyk::solver {
 namespace {
 
+using algebra::Field;
 using algebra::SparseRows;
 using algebra::Vector;
 using problem::LongVector, problem::Problem;
@@ -36,12 +36,16 @@ constexpr double kShare = 0.3;             ///< of what refinement aims at, what
 constexpr double kRounding = 1e-6;         ///< above this tolerance residuals are computed in double precision
 constexpr double kShareOfDirection = 0.1;  ///< how exactly directions of conjugate residuals are solved for
 
+/// Vectors of all unknowns lie where K does. Beside them this process has what is near rows, see HeldStiffness::near_rows(): there multipliers act, unknowns are held,
+/// and u' differs from u. Vectors called near have these unknowns alone.
 class HeldStep final : public Step {
  public:
   HeldStep(const Problem& problem, HeldStiffness& stiffness, const Vector& rho, double tol)
       : problem_(problem), stiffness_(stiffness), rho_(rho), least_(std::max(kUnbalanced, stiffness.solver().iterates() ? kOfTolerance * tol : 0)), own_(problem.row_stiffness()),
-        basis_(stiffness.basis()), T_(basis_.T.cast<long double>()),
-        f_(problem.load()), of_loads_(f_.lpNorm<1>()), u_(LongVector::Zero(problem.unknowns())), before_(u_) {
+        basis_(stiffness.basis()), T_(stiffness.transformation().cast<long double>()), f_(stiffness.field()), u_{stiffness.field(), stiffness.field()}, before_(u_),
+        near_u_(LongVector::Zero(std::ssize(stiffness.near_rows()))), near_before_(near_u_), elsewhere_(stiffness.field()) {
+    f_.put(problem.load());
+    of_loads_ = f_.moduli();
     for (const problem::FrictionGroup& group : problem.friction)
       for (int r = group.first; r < group.row(group.points()); ++r)
         if (basis_.unknown[r] < 0)
@@ -50,7 +54,7 @@ class HeldStep final : public Step {
   }
 
   bool solve(const Linearisation& l, Vector& lambda, Vector& x) override {
-    before_ = u_;
+    before_ = u_, near_before_ = near_u_;
     sort(l);
     place(l.slips);
     if (!stiffness_.factor(spring_, held_, across_)) return false;
@@ -58,57 +62,65 @@ class HeldStep final : public Step {
     const double enough = (problem_.friction.empty() ? kRough : kOfOff * l.off) * of_rows_;
     unbalanced_ = stiffness_.solver().iterates() && tied_.empty() ? std::clamp(enough, least_, roughest_) : least_;
     if (slips_.empty())
-      if (const double sum = left_of(forces()); sum != 0) approach(sum);
+      if (const double sum = left(); sum != 0) approach(sum);
     refine();
-    return u_.allFinite() && tie() && tell(lambda, x);
+    return finite_ && tie() && tell(lambda, x);
   }
 
-  void begin(const Vector& u) override { u_ = stiffness_.without_unnoticed(u).cast<long double>(), forget(); }
+  void begin(const Vector& u) override {
+    const Vector noticed = stiffness_.without_unnoticed(u);
+    u_.high.put(noticed), u_.low = stiffness_.field();
+    near_u_ = noticed(stiffness_.near_rows()).cast<long double>();
+    finite_ = noticed.allFinite();
+    forget();
+  }
 
   bool sharpen(Vector& lambda, Vector& x) override {
     if (unbalanced_ <= least_) return false;
     roughest_ = unbalanced_ = unbalanced_ > kSharper ? std::max(kSharper, least_) : least_, known_ = false;
     refine();
-    return u_.allFinite() && tell(lambda, x);
+    return finite_ && tell(lambda, x);
   }
-  void go_back(double part) override { u_ = part == 0 ? before_ : LongVector(before_ + static_cast<long double>(part) * (u_ - before_)), forget(); }
-  Vector recover() override { return u_.cast<double>(); }
+  void go_back(double part) override {
+    u_.go_back(before_, part);
+    near_u_ = near_before_ + static_cast<long double>(part) * (near_u_ - near_before_);
+    forget();
+  }
+  Vector recover() override { return u_.high.get(); }
 
  private:
-  /// How exact elastic_ is: a product in double precision, or one in extended precision that is rounded to double at the end.
+  /// How exact elastic forces are: a product in double precision, or one in extended precision that is rounded to double at the end.
   enum class Known { no, roughly, precisely };
 
-  void move(const Vector& by) { add(by), forget(); }
-  void add(const Vector& by) {
-    parallel_parts(by.size(), [&](int first, int end) { u_.segment(first, end - first) += by.segment(first, end - first).cast<long double>(); });
+  void add(double factor, const Field& by, const Vector& near) {
+    u_.add(factor, by), near_u_ += (factor * near).cast<long double>();
+    finite_ = finite_ && near_u_.allFinite();
   }
   void forget() { known_ = false, elastic_known_ = Known::no; }
-  void resist(const Vector& resistance) {
-    known_ = false;
-    if (resistance.size() == 0) return forget();
-    if (elastic_known_ == Known::no) return;
-    parallel_parts(resistance.size(), [&](int first, int end) { elastic_.segment(first, end - first) -= resistance.segment(first, end - first); });
-  }
   /// The resistance is rounded as a product in double precision. Where the movement is at most a hundredth of u, this error is a hundredth of that of Ku, and
-  /// elastic_ still counts as precise. Where springs hold rows that have no unknown of their own it does not: there great terms cancel.
-  void move(const HeldStiffness::Displaced& by) {
+  /// elastic forces still count as precise. Where springs hold rows that have no unknown of their own they do not: there great terms cancel.
+  void move(HeldStiffness::Displaced by) {
     constexpr double kSmall = 0.01;
-    if (elastic_known_ == Known::precisely && (sprung_ || !(by.u.lpNorm<Eigen::Infinity>() <= kSmall * static_cast<double>(u_.lpNorm<Eigen::Infinity>()))))
-      elastic_known_ = Known::roughly;
-    add(by.u);
-    resist(by.resistance);
+    if (elastic_known_ == Known::precisely && by.told && (sprung_ || !(by.u.greatest() <= kSmall * u_.high.greatest()))) elastic_known_ = Known::roughly;
+    finite_ = finite_ && by.found;
+    add(1, by.u, by.near_u);
+    if (!by.told) return forget();
+    known_ = false;
+    elsewhere_.swap(by.left), near_elastic_ -= by.near_resistance;
   }
 
-  /// Solves for the forces that are left. Of them may remain kShare of what refinement aims at, and at most kShare of themselves. `sum`: left_of(forces()).
+  /// Solves for the forces that are left. Of them may remain kShare of what refinement aims at, and at most kShare of themselves. `sum`: left().
   void approach(double sum) {
     const double aim = std::min(1.0, unbalanced_ * gross_ / sum);
-    move(stiffness_.solve_in_basis(forces(), std::max(HeldStiffness::kTolerance, kShare * aim)));
+    const Vector& near = forces();
+    move(stiffness_.solve_in_basis(elsewhere_, near, std::max(HeldStiffness::kTolerance, kShare * aim)));
   }
-  /// ‖·‖₁ where u is not held.
-  double left_of(const Vector& forces) const {
-    double sum = 0;
-    for (Eigen::Index i = 0; i < forces.size(); ++i)
-      if (!held_[i]) sum += std::abs(forces[i]);
+  /// ‖·‖₁ of the forces that are left where u is not held.
+  double left() {
+    const Vector& near = forces();
+    double sum = elsewhere_.moduli();
+    for (Eigen::Index k = 0; k < near.size(); ++k)
+      if (!held_[stiffness_.near_rows()[k]]) sum += std::abs(near[k]);
     return sum;
   }
 
@@ -116,8 +128,8 @@ class HeldStep final : public Step {
   void sort(const Linearisation& l) {
     constant_ = spring_ = target_ = Vector::Zero(problem_.rows());
     held_.assign(problem_.unknowns(), 0);
-    if (!stiffness_.solver().iterates() || !u_.allFinite()) u_.setZero(), forget();
-    Vector moved = Vector::Zero(problem_.unknowns());
+    if (!stiffness_.solver().iterates() || !finite_) u_ = {stiffness_.field(), stiffness_.field()}, near_u_.setZero(), finite_ = true, forget();
+    Vector moved = Vector::Zero(near_u_.size());
     holding_.clear(), tied_.clear(), sprung_ = false;
     for (int r = 0; r < problem_.rows(); ++r) {
       if (!l.active[r]) {
@@ -133,8 +145,8 @@ class HeldStep final : public Step {
       }
       if (const int own = basis_.unknown[r]; own >= 0) {
         held_[own] = 1;
-        moved[own] = -static_cast<double>(gap(r));
-        holding_.push_back({r, own});
+        moved[stiffness_.place(own)] = -static_cast<double>(gap(r));
+        holding_.push_back({r, stiffness_.place(own)});
       } else {
         tied_.push_back(r);
         spring_[r] = kHeldRowSpring * own_[r], sprung_ = true;
@@ -142,10 +154,13 @@ class HeldStep final : public Step {
     }
     known_ = false;
     if (moved.isZero(0)) return;
-    basis_.of_signs() ? u_ += basis_.displacements(moved).cast<long double>() : u_ += T_ * moved.cast<long double>();
+    if (basis_.of_signs()) near_u_ += stiffness_.displacements(moved).cast<long double>();
+    else near_u_ += T_ * moved.cast<long double>();
+    const Vector high = near_u_.cast<double>();
+    u_.high.set_watched(high), u_.low.set_watched((near_u_ - high.cast<long double>()).cast<double>());
     if (elastic_known_ == Known::no) return;
     elastic_known_ = Known::roughly;
-    resist(stiffness_.resistance_of_watched(moved));
+    near_elastic_ -= stiffness_.resistance_of_watched(moved);
   }
 
   /// Stiffness across the direction of slip.
@@ -158,7 +173,9 @@ class HeldStep final : public Step {
     }
   }
 
-  /// What the force of a slipping point has beyond P(y), the forces `left` given as without it.
+  int place_of(int row) const { return stiffness_.place(basis_.unknown[row]); }
+
+  /// What the force of a slipping point has beyond P(y), the forces `left` near rows given as without it.
   Vector beyond(const Linearisation::Slip& s, const Vector& left) const {
     Vector slip(s.components);
     for (int i = 0; i < s.components; ++i) slip[i] = static_cast<double>(gap(s.row + i));
@@ -167,15 +184,15 @@ class HeldStep final : public Step {
 
   double multiplier(int row, const Vector& left) const {  // of a scalar row
     const int own = basis_.unknown[row];
-    return own >= 0 && held_[own] ? left[own] : static_cast<double>(lambda_[row] + spring_[row] * gap(row));
+    return own >= 0 && held_[own] ? left[place_of(row)] : static_cast<double>(lambda_[row] + spring_[row] * gap(row));
   }
 
   /// Where cells are small beside the body, as with thousands of supports of a beam, one solution leaves forces that are no rounding of the loads.
   void refine() {
     if (!slips_.empty()) return refine_slipping();
     double before = std::numeric_limits<double>::infinity();
-    for (int k = 0; k < kMostRefinements && u_.allFinite(); ++k) {
-      const double sum = left_of(forces());
+    for (int k = 0; k < kMostRefinements && finite_; ++k) {
+      const double sum = left();
       if (!(sum > unbalanced_ * gross_) || sum > before / 2) return;
       before = sum;
       approach(sum);
@@ -185,46 +202,56 @@ class HeldStep final : public Step {
   /// Where bounds follow the pressure the equations are not symmetric; the preconditioner is the matrix with bounds as they are.
   void refine_slipping() {
     algebra::conjugate_residuals(
-        [&](const std::optional<Vector>& by) -> algebra::Remainder {
-          if (by) move(*by);
+        [&](const std::optional<Field>& by) -> algebra::Remainder {
+          if (by) add(1, *by, by->watched()), forget();
           return {residual(), unbalanced_ * gross_};
         },
-        [&](const Vector& left) -> algebra::ResidualDirection {
-          HeldStiffness::Displaced by = stiffness_.solve_in_basis(left, kShareOfDirection);
-          Vector change = response(by);
+        [&](Field& left) -> algebra::ResidualDirection {
+          HeldStiffness::Displaced by = stiffness_.solve_in_basis(left, left.watched(), kShareOfDirection);
+          Field change = response(left, by);
           return {std::move(by.u), std::move(change)};
         });
   }
 
   /// f − Ku − Bᵀλ with the springs' multipliers as they are, zero where u is held.
-  Vector residual() {
-    Vector left = forces();
-    for (const Holding& h : holding_) left[h.unknown] = 0;
+  Field residual() {
+    Vector near = forces();
+    for (const Holding& h : holding_) near[h.place] = 0;
+    Field left = elsewhere_;
+    left.set_watched(near);
     return left;
   }
 
-  /// What residual() loses where u grows by that.
-  Vector response(const HeldStiffness::Displaced& by) const {
-    const Vector moved = problem_.B * by.u;
-    const Vector before = (by.resistance.size() > 0 ? by.resistance : basis_.forces(problem::rough_stiffness_times(problem_, by.u))) +
-                          basis_.forces(problem_.B.transpose() * spring_.cwiseProduct(moved));
-    Vector lost = before;
-    for (const Linearisation::Slip& s : slips_) {
-      const int own = s.by_normal > 0 ? basis_.unknown[s.normal] : -1;
-      const double pressed = s.by_normal > 0 ? (own >= 0 && held_[own] ? -before[own] : spring_[s.normal] * moved[s.normal]) : 0;
-      const Vector force = s.beyond(moved.segment(s.row, s.components), pressed);
-      for (int i = 0; i < s.components; ++i) lost[basis_.unknown[s.row + i]] += force[i];
+  /// What residual() loses where u grows by that, the displacement under the forces `given`.
+  Field response(const Field& given, const HeldStiffness::Displaced& by) const {
+    Field lost = stiffness_.field();
+    Vector near = by.near_resistance;
+    if (by.told) lost = given, lost.add(-1, by.left);
+    else {
+      problem::take_stiffness_times(problem_, {by.u, stiffness_.field()}, false, lost);
+      lost.add(-2, lost);
+      near = stiffness_.forces(lost.watched());
     }
-    for (const Holding& h : holding_) lost[h.unknown] = 0;
+    const Vector moved = stiffness_.jumps() * by.near_u;
+    near += stiffness_.rows().transpose() * spring_.cwiseProduct(moved);
+    const Vector before = near;
+    for (const Linearisation::Slip& s : slips_) {
+      const bool holds = s.by_normal > 0 && basis_.unknown[s.normal] >= 0 && held_[basis_.unknown[s.normal]];
+      const double pressed = s.by_normal > 0 ? (holds ? -before[place_of(s.normal)] : spring_[s.normal] * moved[s.normal]) : 0;
+      const Vector force = s.beyond(moved.segment(s.row, s.components), pressed);
+      for (int i = 0; i < s.components; ++i) near[place_of(s.row + i)] += force[i];
+    }
+    for (const Holding& h : holding_) near[h.place] = 0;
+    lost.set_watched(near);
     return lost;
   }
 
-  /// f − Ku − Bᵀλ in the basis where rows are unknowns.
+  /// f − Ku − Bᵀλ near rows, in the basis where rows are unknowns. Elsewhere they are elastic forces alone.
   const Vector& forces() {
     if (std::exchange(known_, true)) return forces_;
     know_elastic(unbalanced_ < kRounding ? Known::precisely : Known::roughly);
     Vector& left = forces_;
-    left = elastic_, gross_ = of_loads_;
+    left = near_elastic_, gross_ = of_loads_;
     for (int r = 0; r < problem_.rows(); ++r) {
       const long double multiplier = lambda_[r] + spring_[r] * gap(r);
       if (multiplier == 0) continue;
@@ -234,37 +261,39 @@ class HeldStep final : public Step {
     const Vector without = slips_.empty() ? Vector() : left;
     for (const Linearisation::Slip& s : slips_) {
       const Vector force = beyond(s, without);
-      for (int i = 0; i < s.components; ++i) left[basis_.unknown[s.row + i]] -= force[i];
+      for (int i = 0; i < s.components; ++i) left[place_of(s.row + i)] -= force[i];
     }
-    for (const Holding& h : holding_) gross_ += std::abs(left[h.unknown]);
+    for (const Holding& h : holding_) gross_ += std::abs(left[h.place]);
     of_rows_ = gross_ > 0 ? (gross_ - of_loads_) / gross_ : 1;
     return left;
   }
 
-  /// Computes elastic_ by a product, unless it is known as exactly already.
+  /// Computes elastic forces by a product, unless they are known as exactly already.
   void know_elastic(Known how) {
     if (elastic_known_ >= how) return;
-    elastic_known_ = Known::no;
-    if (how == Known::roughly) elastic_ = basis_.forces(f_ - problem::rough_stiffness_times(problem_, u_.cast<double>()));
-    else {
-      const LongVector internal = problem::precise_stiffness_times(problem_, u_);
-      if (basis_.of_signs()) elastic_ = basis_.forces((f_.cast<long double>() - internal).cast<double>());
-      else elastic_ = (T_.transpose() * LongVector(f_.cast<long double>() - internal)).cast<double>();
-    }
+    elsewhere_ = f_;
+    problem::take_stiffness_times(problem_, u_, how == Known::precisely, elsewhere_);
+    near_elastic_ = stiffness_.forces(elsewhere_.watched());
+    elsewhere_.set_watched(Vector::Zero(near_elastic_.size()));
     elastic_known_ = how;
   }
 
   /// Bu − t of a row.
   long double gap(int row) const {
     long double sum = -target_[row];
-    for (SparseRows::InnerIterator it(problem_.B, row); it; ++it) sum += it.value() * u_[it.col()];
+    for (SparseRows::InnerIterator it(stiffness_.jumps(), row); it; ++it) sum += it.value() * near_u_[it.col()];
     return sum;
   }
 
   /// λ of tied rows so that Bu = t there. False where they contradict each other.
   bool tie() {
-    for (int round = 0; round < kMostRounds && off(tied_gap()) > kAim && u_.allFinite(); ++round)
-      approach_ties(), move(stiffness_.solve_in_basis(forces()).u);
+    for (int round = 0; round < kMostRounds && off(tied_gap()) > kAim && finite_; ++round) {
+      approach_ties();
+      const Vector near = forces();
+      const HeldStiffness::Displaced by = stiffness_.solve_in_basis(elsewhere_, near);
+      finite_ = finite_ && by.found;
+      add(1, by.u, by.near_u), forget();
+    }
     return off(tied_gap()) <= kOff;
   }
 
@@ -273,12 +302,14 @@ class HeldStep final : public Step {
     Vector gap = tied_gap(), p = spring_.cwiseProduct(gap);
     double energy = gap.dot(p);
     for (int k = 0; k < kMostSteps && off(gap) > kAim; ++k) {
-      const Vector moved = stiffness_.solve(problem_.B.transpose() * p);
+      Field nothing = stiffness_.field();
+      const HeldStiffness::Displaced moved = stiffness_.solve_in_basis(nothing, stiffness_.rows().transpose() * p);
       Vector q = Vector::Zero(p.size());
-      q(tied_) = Vector(problem_.B * moved)(tied_);
+      q(tied_) = Vector(stiffness_.jumps() * moved.near_u)(tied_);
       const double curvature = p.dot(q), t = energy / curvature;
       if (!(curvature > 0)) return;
-      lambda_ += t * p, move(-t * moved), gap -= t * q;
+      lambda_ += t * p, gap -= t * q;
+      add(-t, moved.u, moved.near_u), forget();
       const Vector z = spring_.cwiseProduct(gap);
       const double before = std::exchange(energy, gap.dot(z));
       p = z + energy / before * p;
@@ -294,7 +325,7 @@ class HeldStep final : public Step {
   /// The greatest gap of a tied row against the displacements in it.
   double off(const Vector& gap) const {
     if (!gap.allFinite()) return INFINITY;
-    const double size = tied_.empty() ? 0 : u_.cast<double>().lpNorm<Eigen::Infinity>();
+    const double size = tied_.empty() ? 0 : u_.high.greatest();
     double worst = 0;
     for (const int r : tied_)
       if (gap[r] != 0) worst = std::max(worst, std::abs(gap[r]) / (problem_.B.row(r).cwiseAbs().sum() * size + std::abs(target_[r])));
@@ -307,15 +338,16 @@ class HeldStep final : public Step {
     for (int r = 0; r < problem_.rows(); ++r)
       if (spring_[r] != 0) lambda[r] += static_cast<double>(spring_[r] * gap(r));
     const Vector& left = forces();
-    for (const Holding& h : holding_) lambda[h.row] = left[h.unknown];
+    for (const Holding& h : holding_) lambda[h.row] = left[h.place];
     for (const Linearisation::Slip& s : slips_) lambda.segment(s.row, s.components) += beyond(s, left);
     x.resize(problem_.rows());
     for (int r = 0; r < problem_.rows(); ++r) x[r] = static_cast<double>(gap(r) + target_[r] - static_cast<long double>(problem_.c[r]));
     return lambda.allFinite();
   }
 
+  /// A row, and the place of its unknown among those near rows.
   struct Holding {
-    int row, unknown;
+    int row, place;
   };
 
   const Problem& problem_;
@@ -325,9 +357,9 @@ class HeldStep final : public Step {
   const Vector own_;
   using LongMatrix = Eigen::SparseMatrix<long double>;
   const problem::RowBasis& basis_;
-  const LongMatrix T_;   ///< its T; empty where that is
-  const Vector f_;
-  const double of_loads_;  ///< ‖f‖₁
+  const LongMatrix T_;   ///< its T near rows; empty where that is
+  Field f_;
+  double of_loads_;      ///< ‖f‖₁
   Vector constant_, spring_, target_;  ///< rows: λ of those that are not active; s and t of λ = s(Bu − t), and Bu of rigid ones
   std::vector<char> held_;
   std::vector<Holding> holding_;
@@ -335,11 +367,14 @@ class HeldStep final : public Step {
   algebra::Triplets across_;
   std::vector<int> tied_;              ///< rigid rows that hold no unknown
   bool sprung_ = false;                ///< do springs hold rows that have no unknown of their own?
-  LongVector u_, before_;                       ///< of more digits than the factor's solutions have: see precise_stiffness_times()
+  algebra::LongField u_, before_;      ///< of more digits than the factor's solutions have: see precise_stiffness_times()
+  LongVector near_u_, near_before_;    ///< the same near rows
+  bool finite_ = true;                 ///< is u_?
   Vector lambda_;
-  Vector elastic_;                     ///< Tᵀ(f − Ku), as far as it is known
+  Field elsewhere_;                    ///< Tᵀ(f − Ku) but near rows, as far as it is known; zero near them
+  Vector near_elastic_;                ///< the same near rows
   Known elastic_known_ = Known::no;
-  Vector forces_;
+  Vector forces_;                      ///< near rows
   bool known_ = false;                 ///< are forces_ those of u_ and lambda_?
   double unbalanced_ = least_;         ///< of gross_, what is aimed at
   double roughest_ = problem_.friction.empty() ? kRough : kSharper;  ///< the greatest value that unbalanced_ may take

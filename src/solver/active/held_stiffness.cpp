@@ -1,6 +1,7 @@
 #include "solver/active/held_stiffness.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -15,6 +16,7 @@
 namespace dotyk::solver {
 
 using algebra::DenseMatrix;
+using algebra::Field;
 using algebra::SparseMatrix;
 using algebra::SparseRows;
 using algebra::StoredMatrix;
@@ -25,14 +27,14 @@ using problem::RigidMotions;
 namespace {
 
 /// Where the entry is among the numbers of a compressed matrix; -1 where its pattern has none.
-std::ptrdiff_t place(const SparseMatrix& matrix, int row, int column) {
+std::ptrdiff_t place_of(const SparseMatrix& matrix, int row, int column) {
   const int *begin = matrix.innerIndexPtr() + matrix.outerIndexPtr()[column], *end = matrix.innerIndexPtr() + matrix.outerIndexPtr()[column + 1];
   const int* at = std::lower_bound(begin, end, row);
   return at == end || *at != row ? -1 : at - matrix.innerIndexPtr();
 }
 
 bool has_room(const SparseMatrix& matrix, const algebra::Triplets& entries) {
-  return matrix.isCompressed() && std::ranges::all_of(entries, [&](const auto& e) { return place(matrix, e.row(), e.col()) >= 0; });
+  return matrix.isCompressed() && std::ranges::all_of(entries, [&](const auto& e) { return place_of(matrix, e.row(), e.col()) >= 0; });
 }
 
 /// TᵀKT of a lower triangle and a T of signs, or K of TᵀKT.
@@ -55,10 +57,11 @@ HeldStiffness::HeldStiffness(const Problem& problem, const RigidMotions& rigid, 
   for (const int unknown : basis_.unknown)
     if (unknown >= 0) may_be_held[unknown] = 1;
   watch(may_be_held);
+  take_near_rows();
   for (const int unknown : fixing_) change(unknown, unknown, lower().coeff(unknown, unknown));  // carries nothing
   if (rigid.noticed.cols() > 0) spring_rows(problem.row_stiffness());
   std::vector<Entry> first = now();
-  solver_ = make.make({lower(), numbers(first), problem, basis_, monitor, nested, slices_, beside});
+  solver_ = make.make({lower(), numbers(first), problem, basis_, monitor, nested, slices_, beside, near_});
   told_ = std::move(first);
 }
 
@@ -149,7 +152,7 @@ algebra::SymmetricMatrix HeldStiffness::near(std::vector<char>& of, int layers) 
 /// Of an entry where nothing is held.
 void HeldStiffness::change(int row, int column, double by) {
   if (held_[row] || held_[column]) return;
-  const std::ptrdiff_t at = place(lower(), row, column);
+  const std::ptrdiff_t at = place_of(lower(), row, column);
   if (at < 0) throw std::logic_error("held stiffness: there is no room for an entry");
   changed_.push_back({at, row, column, by});
 }
@@ -212,29 +215,83 @@ bool HeldStiffness::factor(const Vector& spring, const std::vector<char>& held, 
   return definite;
 }
 
-void HeldStiffness::empty_held(Vector& forces) const {
-  parallel_parts(forces.size(), [&](int first, int end) {
-    for (int i = first; i < end; ++i)
-      if (held_[i]) forces[i] = 0;
+namespace {
+
+/// Columns of near unknowns alone, in their numbering; all others are empty.
+SparseRows near_columns(const SparseRows& rows, const std::vector<int>& place, int near) {
+  algebra::Triplets entries;
+  for (int r = 0; r < rows.rows(); ++r)
+    for (SparseRows::InnerIterator it(rows, r); it; ++it) entries.emplace_back(r, place[it.col()], it.value());
+  return algebra::from_triplets<SparseRows>(rows.rows(), near, entries);
+}
+
+}  // namespace
+
+void HeldStiffness::take_near_rows() {
+  place_.assign(static_cast<std::size_t>(problem_.unknowns()), -1);
+  const auto note = [&](Eigen::Index unknown) { place_[unknown] = 0; };
+  for (const SparseRows* rows : {&problem_.B, static_cast<const SparseRows*>(&rows_)})
+    for (int r = 0; r < rows->rows(); ++r)
+      for (SparseRows::InnerIterator it(*rows, r); it; ++it) note(it.col());
+  for (const Entry& e : of_watched_) note(e.row), note(e.column);
+  for (const int unknown : fixing_) note(unknown);
+  const auto each_of_T = [&](auto&& visit) {
+    for (Eigen::Index j = 0; j < basis_.T.cols(); ++j)
+      for (SparseMatrix::InnerIterator it(basis_.T, j); it; ++it) visit(it.row(), j, it.value());
+  };
+  each_of_T([&](Eigen::Index i, Eigen::Index j, double value) {
+    if (i != j || value != 1) note(i), note(j);
   });
+  for (Eigen::Index i = 0; i < basis_.signs.size(); ++i)
+    if (basis_.signs[i] != 1) note(i);
+  for (std::size_t i = 0; i < place_.size(); ++i)
+    if (place_[i] == 0) place_[i] = static_cast<int>(near_.size()), near_.push_back(static_cast<int>(i));
+  const int count = static_cast<int>(near_.size());
+  jumps_ = near_columns(problem_.B, place_, count), near_jumps_ = near_columns(rows_, place_, count);
+  if (basis_.signs.size() > 0) signs_ = basis_.signs(near_);
+  if (!basis_.of_signs()) {
+    algebra::Triplets entries;
+    each_of_T([&](Eigen::Index i, Eigen::Index j, double value) {
+      if (place_[i] >= 0 && place_[j] >= 0) entries.emplace_back(place_[i], place_[j], value);
+    });
+    T_ = algebra::from_triplets(count, count, entries);
+  }
+  const auto* slices = problem::slices(problem_);
+  vectors_ = slices ? slices->vectors(near_) : algebra::vectors_here(problem_.unknowns(), near_);
+}
+
+Vector HeldStiffness::displacements(const Vector& y) const {
+  if (!basis_.of_signs()) return T_ * y;
+  return signs_.size() > 0 ? Vector(signs_.cwiseProduct(y)) : y;
+}
+
+Vector HeldStiffness::forces(const Vector& f) const {
+  if (!basis_.of_signs()) return T_.transpose() * f;
+  return signs_.size() > 0 ? Vector(signs_.cwiseProduct(f)) : f;
+}
+
+void HeldStiffness::empty_held(Vector& near) const {
+  for (std::size_t k = 0; k < near_.size(); ++k)
+    if (held_[near_[k]]) near[static_cast<Eigen::Index>(k)] = 0;
 }
 
 Vector HeldStiffness::resistance(const Vector& y, Vector Ay) const {
   for (const Entry& e : told_) {
     if (held_[e.row] || held_[e.column]) continue;
-    Ay[e.row] -= e.by * y[e.column];
-    if (e.row != e.column) Ay[e.column] -= e.by * y[e.row];
+    const int i = place_[e.row], j = place_[e.column];
+    Ay[i] -= e.by * y[j];
+    if (i != j) Ay[j] -= e.by * y[i];
   }
   empty_held(Ay);
   each_watched_force(y, [&](int unknown, double force) {
-    if (held_[unknown]) Ay[unknown] += force;
+    if (held_[unknown]) Ay[place_[unknown]] += force;
   });
   return Ay;
 }
 
 Vector HeldStiffness::resistance_of_watched(const Vector& y) const {
   Vector forces = Vector::Zero(y.size());
-  each_watched_force(y, [&](int unknown, double force) { forces[unknown] += force; });
+  each_watched_force(y, [&](int unknown, double force) { forces[place_[unknown]] += force; });
   return forces;
 }
 
@@ -242,24 +299,35 @@ template <class Visit>
 void HeldStiffness::each_watched_force(const Vector& y, const Visit& visit) const {
   const double* K = lower().valuePtr();
   for (const Entry& e : of_watched_) {
-    visit(e.row, K[e.place] * y[e.column]);
-    if (e.row != e.column) visit(e.column, K[e.place] * y[e.row]);
+    visit(e.row, K[e.place] * y[place_[e.column]]);
+    if (e.row != e.column) visit(e.column, K[e.place] * y[place_[e.row]]);
   }
 }
 
-HeldStiffness::Displaced HeldStiffness::solve_in_basis(Vector forces, double tolerance) const {
-  empty_held(forces);
-  Vector left;
-  Vector solution = solver_->solve(forces, tolerance, &left);
-  if (solver_->iterates() && !solution.allFinite() && forces.allFinite())
+HeldStiffness::Displaced HeldStiffness::solve_in_basis(Field& elsewhere, Vector near, double tolerance) const {
+  empty_held(near);
+  elsewhere.set_watched(near);
+  Displaced out{true, false, field(), {}, field(), {}};
+  const auto [found, told] = solver_->solve_fields(elsewhere, tolerance, out.u, out.left);
+  out.found = found, out.told = told;
+  if (!found && solver_->iterates() && std::isfinite(elsewhere.moduli()))
     throw SlowIterations(text(solver_->method(), ": no solution of a linear system within the iterations allowed, as with a nearly incompressible material, "
                           "stretched cells or great contrasts of stiffness; dotyk.solver.pdas{ linear = \"factor\" } does without iterations"));
-  Vector resisting;
-  if (left.size() > 0) {
-    parallel_parts(forces.size(), [&](int first, int end) { forces.segment(first, end - first) -= left.segment(first, end - first); });
-    resisting = resistance(solution, std::move(forces));
+  const Vector moved = out.u.watched();
+  if (told) {
+    out.near_resistance = resistance(moved, near - out.left.watched());
+    out.left.set_watched(Vector::Zero(near.size()));
   }
-  return {problem::least(unnoticed_, basis_.displacements(std::move(solution))), std::move(resisting)};
+  out.near_u = displacements(moved);
+  out.u.set_watched(out.near_u);
+  if (unnoticed_.cols() > 0) out.u.put(without_unnoticed(out.u.get())), out.near_u = out.u.watched();
+  return out;
+}
+
+Vector HeldStiffness::solve(const Vector& b) const {
+  Field forces = field();
+  forces.put(b);
+  return solve_in_basis(forces, this->forces(forces.watched())).u.get();
 }
 
 namespace {
@@ -279,7 +347,8 @@ DenseMatrix all_rigid_motions(const Problem& problem) {
 /// Solves with TᵀKT, T of signs, by a solver for K.
 class SignedSolver final : public algebra::SpdSolver {
  public:
-  SignedSolver(const Vector& signs, std::unique_ptr<algebra::SpdSolver> of_K) : signs_(signs), of_K_(std::move(of_K)) {}
+  /// `near`: all unknowns with other signs than +1, which are watched in fields.
+  SignedSolver(const Vector& signs, const std::vector<int>& near, std::unique_ptr<algebra::SpdSolver> of_K) : signs_(signs), near_signs_(signs(near)), of_K_(std::move(of_K)) {}
 
   /// Entries of K from such of TᵀKT.
   static algebra::Triplets of_K(const algebra::Triplets& entries, const Vector& signs) {
@@ -294,6 +363,13 @@ class SignedSolver final : public algebra::SpdSolver {
     if (left) left->array() *= signs_.array();
     return signs_.cwiseProduct(x);
   }
+  Solved solve_fields(Field& b, double tolerance, Field& x, Field& left) override {
+    const auto turn = [&](Field& field) { field.set_watched(near_signs_.cwiseProduct(field.watched())); };
+    turn(b);
+    const Solved solved = of_K_->solve_fields(b, tolerance, x, left);
+    for (Field* field : {&b, &x, &left}) turn(*field);
+    return solved;
+  }
   bool iterates() const override { return of_K_->iterates(); }
   int iterations() const override { return of_K_->iterations(); }
   int levels() const override { return of_K_->levels(); }
@@ -301,7 +377,7 @@ class SignedSolver final : public algebra::SpdSolver {
   std::string method() const override { return of_K_->method(); }
 
  private:
-  const Vector signs_;
+  const Vector signs_, near_signs_;
   const std::unique_ptr<algebra::SpdSolver> of_K_;
 };
 
@@ -339,7 +415,7 @@ MakeSpdSolver multigrid(Levels levels, double most_iterations) {
     auto solver = multigrid::make_solver(matrix, s.monitor);
     if (s.nested && s.problem.blocks.size() == 1) s.nested->functions = std::move(coarse);
     if (!other_signs) return solver;
-    return std::make_unique<SignedSolver>(s.basis.signs, std::move(solver));
+    return std::make_unique<SignedSolver>(s.basis.signs, s.near_rows, std::move(solver));
   };
   return {make, levels == Levels::meshes};  // aggregates of a mesh that has coarser ones: nested iteration wants the whole
 }

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "algebra/field.hpp"
 #include "algebra/spd_solver.hpp"
 #include "base/error.hpp"
 #include "problem/rigid_motions.hpp"
@@ -28,6 +29,7 @@ struct SpdSystem {
   Nested* nested;    ///< null: there is no nested iteration
   const algebra::SlicedMatrix* slices;     ///< K; null: there are none
   const algebra::Triplets& beside_slices;  ///< entries of TᵀKT that differ from K's, where there are slices
+  const std::vector<int>& near_rows;       ///< as in HeldStiffness
 };
 struct MakeSpdSolver {
   std::function<std::unique_ptr<algebra::SpdSolver>(const SpdSystem&)> make;
@@ -66,7 +68,17 @@ class HeldStiffness {
                 Nested* nested = nullptr);
 
   const problem::RowBasis& basis() const { return basis_; }
-  const algebra::SparseRows& rows() const { return rows_; }  ///< B T
+  /// Unknowns that rows act on, those of rows, and what K couples to these: ascending. T is the identity elsewhere. Vectors of them alone are called near.
+  const std::vector<int>& near_rows() const { return near_; }
+  int place(int unknown) const { return place_[unknown]; }            ///< among them; −1: it is none
+  const algebra::SparseRows& jumps() const { return jumps_; }         ///< B of near displacements
+  const algebra::SparseRows& rows() const { return near_jumps_; }     ///< B T, likewise
+  const algebra::SparseMatrix& transformation() const { return T_; }  ///< T, likewise; empty where T is of signs
+  /// T y and Tᵀf, likewise.
+  algebra::Vector displacements(const algebra::Vector& y) const;
+  algebra::Vector forces(const algebra::Vector& f) const;
+  /// Zeros. Such vectors lie with the slices of K, or here where there are none; near_rows() are watched.
+  algebra::Field field() const { return algebra::Field(vectors_); }
   /// Flags so many layers of neighbours in `of` as well, and returns a lower triangle that has at least the entries of TᵀKT in rows and columns of flagged unknowns.
   algebra::SymmetricMatrix near(std::vector<char>& of, int layers) const;
   /// `spring`: s, force per displacement, rows; `held`: one flag an unknown of the basis; `added`: to the matrix, lower triangle, of the unknowns of
@@ -74,15 +86,19 @@ class HeldStiffness {
   bool factor(const algebra::Vector& spring, const std::vector<char>& held, const std::vector<Eigen::Triplet<double>>& added = {});
   /// What forces displace.
   struct Displaced {
-    algebra::Vector u;
-    algebra::Vector resistance;  ///< TᵀKu, from the residual that an iterative solver returns; empty where the solver is direct
+    bool found = true;  ///< else a direct solver has given what is no number
+    bool told = false;  ///< the last two: by iterative solvers
+    algebra::Field u;
+    algebra::Vector near_u;
+    algebra::Field left;              ///< what is left of the forces elsewhere, zero near rows
+    algebra::Vector near_resistance;  ///< TᵀKu
   };
   /// u under the forces b, zero in what is held.
-  algebra::Vector solve(const algebra::Vector& b) const { return solve_in_basis(basis_.forces(b)).u; }
-  /// The same for forces given as Tᵀb. An iterative solver stops at a residual of `tolerance` times their norm, and throws NotSolved if it cannot
-  /// reach that.
-  Displaced solve_in_basis(algebra::Vector forces, double tolerance = kTolerance) const;
-  /// TᵀKT y at the unknowns that rows may hold; where y is zero but there, at all unknowns.
+  algebra::Vector solve(const algebra::Vector& b) const;
+  /// The same for forces given as Tᵀb, near rows and in `elsewhere`, whose numbers near rows become those or zero where held. An iterative solver stops at a
+  /// residual of `tolerance` times their norm, and throws NotSolved if it cannot reach that.
+  Displaced solve_in_basis(algebra::Field& elsewhere, algebra::Vector near, double tolerance = kTolerance) const;
+  /// TᵀKT y at the unknowns that rows may hold; where y is zero but there, at all unknowns. Near vectors.
   algebra::Vector resistance_of_watched(const algebra::Vector& y) const;
 
   /// A few unknowns: where they are held, the bodies cannot move in a way that rows notice.
@@ -111,8 +127,9 @@ class HeldStiffness {
   void change(int row, int column, double by);
   void spring_rows(const algebra::Vector& spring);
   void watch(const std::vector<char>& held);
-  void empty_held(algebra::Vector& forces) const;  ///< zeros there
-  /// TᵀKT y from A y, for a y that is zero at what is held: A has springs in addition, and lacks the rows of held unknowns.
+  void take_near_rows();
+  void empty_held(algebra::Vector& near) const;  ///< zeros there
+  /// TᵀKT y from A y near rows, for a y that is zero at what is held: A has springs in addition, and lacks the rows of held unknowns.
   algebra::Vector resistance(const algebra::Vector& y, algebra::Vector Ay) const;
   /// Calls visit(unknown, force) for what makes up TᵀKT y at the unknowns that rows may hold.
   template <class Visit>
@@ -125,7 +142,12 @@ class HeldStiffness {
   const problem::Problem& problem_;
   const problem::RowBasis basis_;
   const algebra::SparseMatrix unnoticed_;
-  algebra::SparseRows rows_;
+  algebra::SparseRows rows_;        ///< B T
+  std::vector<int> near_, place_;
+  algebra::SparseRows jumps_, near_jumps_;
+  algebra::SparseMatrix T_;
+  algebra::Vector signs_;           ///< of near unknowns; empty where T is the identity
+  std::shared_ptr<algebra::Vectors> vectors_;
   algebra::SymmetricMatrix lower_;  ///< K itself where that has the room and T is the identity
   const algebra::SlicedMatrix* slices_ = nullptr;  ///< K; null: lower() is the whole
   std::vector<int> fixing_;         ///< unknowns that hold motions which no row notices

@@ -1,0 +1,86 @@
+// Vectors of a number for each unknown, which lie where the matrix does: in this process, or in parts with the processes that have its slices.
+#pragma once
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "algebra/vector_parts.hpp"
+
+namespace dotyk::algebra {
+
+/// Where vectors lie. They are known by numbers from 1. Some unknowns are watched: their numbers are told and set at little cost, as one vector in the order of
+/// these unknowns.
+class Vectors {
+ public:
+  virtual ~Vectors() = default;
+  int next() { return ++last_; }
+  virtual double run(const VectorOrder& order) = 0;
+  virtual Vector get(int v) = 0;
+  virtual void put(int v, const Vector& numbers) = 0;
+  virtual Vector watched(int v) = 0;
+  virtual void set_watched(int v, const Vector& numbers) = 0;
+
+ private:
+  int last_ = 0;
+};
+
+/// Vectors in this process. `watched`: unknowns, ascending.
+std::shared_ptr<Vectors> vectors_here(int unknowns, std::vector<int> watched);
+
+/// A vector of a number for each unknown. Copies are vectors of their own. Those that work together lie in one place.
+class Field {
+ public:
+  Field() = default;
+  explicit Field(std::shared_ptr<Vectors> where) : where_(std::move(where)) { make(); }  ///< zeros
+  Field(const Field& other) : where_(other.where_) {
+    if (where_) make(), run(Op::copy, other.number_);
+  }
+  Field(Field&& other) noexcept { swap(other); }
+  Field& operator=(const Field& other) {
+    if (where_ && where_ == other.where_) run(Op::copy, other.number_);
+    else Field(other).swap(*this);
+    return *this;
+  }
+  Field& operator=(Field&& other) noexcept {
+    swap(other);
+    return *this;
+  }
+  ~Field() {
+    if (where_) run(Op::drop);
+  }
+  void swap(Field& other) noexcept { where_.swap(other.where_), std::swap(number_, other.number_); }
+
+  void add(double factor, const Field& what) { where_->run({Op::add, number_, what.number_, 0, 0, factor}); }
+  double dot(const Field& other) const { return run(Op::dot, other.number_); }
+  double moduli() const { return run(Op::moduli); }      ///< ‖·‖₁; no number where one is none
+  double greatest() const { return run(Op::greatest); }  ///< ‖·‖∞
+  Vector get() const { return where_->get(number_); }
+  void put(const Vector& numbers) { where_->put(number_, numbers); }
+  Vector watched() const { return where_->watched(number_); }
+  void set_watched(const Vector& numbers) { where_->set_watched(number_, numbers); }
+
+  const std::shared_ptr<Vectors>& where() const { return where_; }
+  int number() const { return number_; }
+
+ private:
+  using Op = VectorOrder::Op;
+  void make() { number_ = where_->next(), run(Op::make); }
+  double run(Op op, int other = 0) const { return where_->run({op, number_, other}); }
+
+  std::shared_ptr<Vectors> where_;
+  int number_ = 0;
+};
+
+/// The sum of two vectors, of which one is the other's rounding: a vector in extended precision.
+struct LongField {
+  Field high, low;
+
+  void add(double factor, const Field& by) { high.where()->run({VectorOrder::Op::add_exactly, high.number(), low.number(), by.number(), 0, factor}); }
+  /// From `other` so far on the way to this.
+  void go_back(const LongField& other, double part) {
+    high.where()->run({VectorOrder::Op::blend, high.number(), low.number(), other.high.number(), other.low.number(), part});
+  }
+};
+
+}  // namespace dotyk::algebra

@@ -1,0 +1,110 @@
+// The numbers behind fields: what one process has of some vectors.
+#pragma once
+
+#include <algorithm>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "algebra/types.hpp"
+#include "base/parallel.hpp"
+
+namespace dotyk::algebra {
+
+/// What is done with vectors where they lie; a, b, c, d are their numbers.
+struct VectorOrder {
+  enum class Op : int {
+    make,         ///< a = 0
+    drop,         ///< a is no more
+    copy,         ///< a = b
+    add,          ///< a += factor b
+    add_exactly,  ///< a + b += factor c in extended precision, where a is the sum rounded to double, and b what that lacks
+    blend,        ///< a + b becomes c + d + factor (a + b − c − d), likewise
+    dot,          ///< tells a · b
+    moduli,       ///< tells ‖a‖₁
+    greatest      ///< tells ‖a‖∞
+  };
+  Op op;
+  int a = 0, b = 0, c = 0, d = 0;
+  double factor = 0;
+};
+
+/// Vectors of one length, or what one process has of such vectors.
+class VectorParts {
+ public:
+  /// `watched`: places that are asked for. `threads`: on all cores, else on one.
+  VectorParts(std::ptrdiff_t size, std::vector<int> watched, bool threads) : size_(size), watched_(std::move(watched)), threads_(threads ? threads_for(size, kFew) : 1) {}
+
+  std::vector<double>& operator[](int v) { return vectors_.at(v); }
+  /// What the order tells, of this part; else 0.
+  double run(const VectorOrder& order) {
+    using Op = VectorOrder::Op;
+    if (order.op == Op::make) return vectors_[order.a].assign(static_cast<std::size_t>(size_), 0.0), 0.0;
+    if (order.op == Op::drop) return vectors_.erase(order.a), 0.0;
+    double* const none = nullptr;
+    const auto of = [&](int v) { return v > 0 ? vectors_.at(v).data() : none; };
+    double *const a = of(order.a), *const b = of(order.b), *const c = of(order.c), *const d = of(order.d);
+    const auto part = [](double* v, int first, int end) { return Eigen::Map<Vector>(v + first, end - first); };
+    const double factor = order.factor;
+    switch (order.op) {
+      case Op::make:
+      case Op::drop: break;
+      case Op::copy: each([&](int first, int end) { part(a, first, end) = part(b, first, end); }); break;
+      case Op::add: each([&](int first, int end) { part(a, first, end) += factor * part(b, first, end); }); break;
+      case Op::add_exactly:
+        each([&](int first, int end) {
+          for (int i = first; i < end; ++i) split(sum(a[i], b[i]) + static_cast<long double>(factor) * c[i], a[i], b[i]);
+        });
+        break;
+      case Op::blend:
+        each([&](int first, int end) {
+          for (int i = first; i < end; ++i) split(sum(c[i], d[i]) + factor * (sum(a[i], b[i]) - sum(c[i], d[i])), a[i], b[i]);
+        });
+        break;
+      case Op::dot: return gathered(false, [&](int first, int end) { return part(a, first, end).dot(part(b, first, end)); });
+      case Op::moduli: return gathered(false, [&](int first, int end) { return part(a, first, end).template lpNorm<1>(); });
+      case Op::greatest: return gathered(true, [&](int first, int end) { return part(a, first, end).template lpNorm<Eigen::Infinity>(); });
+    }
+    return 0;
+  }
+  std::vector<double> watched(int v) const {
+    const std::vector<double>& all = vectors_.at(v);
+    std::vector<double> numbers;
+    for (const int i : watched_) numbers.push_back(all[i]);
+    return numbers;
+  }
+  void set_watched(int v, const std::vector<double>& numbers) {
+    std::vector<double>& all = vectors_.at(v);
+    for (std::size_t k = 0; k < watched_.size(); ++k) all[watched_[k]] = numbers[k];
+  }
+
+ private:
+  static constexpr std::ptrdiff_t kFew = 100'000;  // numbers, for a thread
+
+  static long double sum(double high, double low) { return static_cast<long double>(high) + low; }
+  static void split(long double sum, double& high, double& low) {
+    high = static_cast<double>(sum);
+    low = static_cast<double>(sum - high);
+  }
+  /// Calls work(first, end) for ranges.
+  template <class Work>
+  void each(const Work& work) const {
+    parallel_ranges(static_cast<int>(size_), threads_, [&](int, int first, int end) { work(first, end); });
+  }
+  /// The sum, or the greatest, of what term(first, end) gives for ranges.
+  template <class Term>
+  double gathered(bool greatest, const Term& term) const {
+    std::vector<double> parts(static_cast<std::size_t>(threads_), 0.0);
+    parallel_ranges(static_cast<int>(size_), threads_, [&](int k, int first, int end) { parts[k] = end > first ? term(first, end) : 0; });
+    double all = 0;
+    for (const double part : parts) all = greatest ? std::max(all, part) : all + part;
+    return all;
+  }
+
+  std::ptrdiff_t size_;
+  std::vector<int> watched_;
+  int threads_;
+  std::map<int, std::vector<double>> vectors_;
+};
+
+}  // namespace dotyk::algebra
