@@ -17,21 +17,6 @@ RigidFrame::RigidFrame(const mesh::Mesh& mesh) : dimension(mesh.dimension()), si
     for (int i = 0; i < dimension; ++i) centre[i] += mesh.node(n)[i] / mesh.node_count();
 }
 
-RigidFrame::Row RigidFrame::row(const double* x, int i) const {
-  Row r = Row::Zero(count());
-  double d[3] = {0, 0, 0};
-  for (int k = 0; k < dimension; ++k) d[k] = (x[k] - centre[k]) / size;
-  r[i] = 1;
-  if (dimension == 2) {
-    r[2] = i == 0 ? -d[1] : d[0];
-  } else {  // (ω × d)_i = ω_j d_k − ω_k d_j
-    const int j = (i + 1) % 3, k = (i + 2) % 3;
-    r[3 + j] = d[k];
-    r[3 + k] = -d[j];
-  }
-  return r;
-}
-
 namespace {
 
 /// To the nearest multiple of 10^k ≤ noise · scale, so that no digit of noise is printed.

@@ -18,8 +18,25 @@ struct RigidFrame {
 
   explicit RigidFrame(const mesh::Mesh& mesh);
   int count() const { return dimension == 2 ? 3 : 6; }
-  /// Component i of every motion at x; component k of all (node × dimension) of a mesh.
-  Row row(const double* x, int i) const;
+  /// Component i of every motion at x, d the dimension; component k of all (node × dimension) of a mesh.
+  template <int d>
+  Eigen::Matrix<double, 1, d == 2 ? 3 : 6> row(const double* x, int i) const {
+    Eigen::Matrix<double, 1, d == 2 ? 3 : 6> r = r.Zero();
+    const auto from_centre = [&](int k) { return (x[k] - centre[k]) / size; };
+    r[i] = 1;
+    if constexpr (d == 2) {
+      r[2] = i == 0 ? -from_centre(1) : from_centre(0);
+    } else {  // (ω × d)_i = ω_j d_k − ω_k d_j
+      const int j = (i + 1) % 3, k = (i + 2) % 3;
+      r[3 + j] = from_centre(k);
+      r[3 + k] = -from_centre(j);
+    }
+    return r;
+  }
+  Row row(const double* x, int i) const {
+    if (dimension == 2) return row<2>(x, i);
+    return row<3>(x, i);
+  }
   Row row(const mesh::Mesh& mesh, std::size_t k) const {
     return row(mesh.node(static_cast<int>(k) / dimension), static_cast<int>(k) % dimension);
   }

@@ -93,7 +93,7 @@ using Row = Eigen::Matrix<double, 1, (d == 2 ? 3 : 6) + 1>;
 template <int d>
 Row<d> row(const RigidFrame& frame, const double* x, int i) {
   Row<d> out;
-  out << frame.row(x, i), (x[i] - frame.centre[i]) / frame.size;
+  out << frame.row<d>(x, i), (x[i] - frame.centre[i]) / frame.size;
   return out;
 }
 
@@ -219,7 +219,7 @@ DenseMatrix energies(const mesh::Mesh& mesh, const MaterialField& material, cons
         for (int b = 0; b <= a; ++b)
           for (int j = 0; j < d; ++j) whole(a * d + i, b * d + j) = whole(b * d + j, a * d + i) = k[a][b][i][j];
       }
-    sum += F.transpose() * (whole * F);
+    sum += F.transpose().lazyProduct(whole.lazyProduct(F).eval());
   }
   sum(count - 1, count - 1) += volumes.dilated / (frame.size * frame.size);
   for (const FacetSpring& spring : springs)

@@ -122,6 +122,7 @@ Mesh grid(int dimension, const double* from, const double* to, const int* cells,
           name_facets(mesh, bits, at, cells);
         }
   mesh.coarser = every_second(dimension, cells);
+  mesh.generated = {mesh.coordinates.size(), mesh.cells.size()};
   return of_family(std::move(mesh), family);
 }
 

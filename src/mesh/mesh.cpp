@@ -24,7 +24,13 @@ Point Mesh::cell_centre(int c) const { return mean(cell(c), topology().nodes); }
 
 Box Mesh::box() const {
   Box box;
-  for (int k = 0; k < node_count(); ++k) box.add(point(k));
+  const int nodes = node_count(), d = dimension();
+  if (nodes > 0) box.add(point(0));
+  for (int i = 0; i < d; ++i) {
+    double low = box.low[i], high = box.high[i];
+    for (int k = 0; k < nodes; ++k) low = std::min(low, node(k)[i]), high = std::max(high, node(k)[i]);
+    box.low[i] = low, box.high[i] = high;
+  }
   return box;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <map>
 #include <memory>
@@ -35,6 +36,10 @@ struct Mesh {
   std::vector<int> cells;           ///< nodes per cell × cell_count, cell by cell
   std::map<std::string, std::vector<Facet>> parts;
   std::shared_ptr<const Coarser> coarser = nullptr;  ///< where it is known
+  /// Nodes and cells that a generator made, wherever it put the nodes: while there are so many the mesh is known to be in one piece (see pieces_of), with no
+  /// cell twice and no node without a cell.
+  std::array<std::size_t, 2> generated{};
+  bool one_piece() const { return generated == std::array{coordinates.size(), cells.size()} && !cells.empty(); }
 
   const ElementTopology& topology() const { return mesh::topology(element); }
   int dimension() const { return dimension_of(element); }

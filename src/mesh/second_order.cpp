@@ -88,6 +88,7 @@ Mesh second_order(Mesh first, Monitor* watch) {
     for (int i = 0; i < own; ++i) put(i, i);
     for (std::size_t i = 0; i < made_by.size(); ++i) each_corner(i, [&](int corner) { put(own + static_cast<int>(i), corner); });
   }), own, first.coarser});
+  if (first.one_piece()) mesh.generated = {mesh.coordinates.size(), mesh.cells.size()};
   return mesh;
 }
 
@@ -142,6 +143,7 @@ Mesh cut_at_nodes(Mesh whole) {
   for (int c = 0; c < whole.cell_count(); ++c)
     for (const std::vector<int>& piece : pieces)
       for (const int k : piece) mesh.cells.push_back(whole.cell(c)[k]);
+  if (whole.one_piece()) mesh.generated = {mesh.coordinates.size(), mesh.cells.size()};
   std::vector<std::vector<Facet>> within(static_cast<std::size_t>(t.facets));  // facet of a cell → its pieces
   for (std::size_t l = 0; l < within.size(); ++l)
     for (std::vector<int> corners : facet_pieces) {

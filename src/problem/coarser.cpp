@@ -206,7 +206,9 @@ State Coarser::prolonged(const State& state) const {
   Eigen::Index first = 0;
   for (std::size_t b = 0; b < functions.size(); ++b) {
     const SparseRows& P = *functions[b];
-    out.u.segment(first, P.rows()) = P * state.u.segment(problem.blocks[b].first, P.cols());
+    parallel_parts(P.rows(), [&](int begin, int end) {
+      out.u.segment(first + begin, end - begin) = P.middleRows(begin, end - begin) * state.u.segment(problem.blocks[b].first, P.cols());
+    });
     first += P.rows();
   }
   for (const std::vector<int>& rows : kinds(problem)) {

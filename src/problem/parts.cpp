@@ -56,7 +56,11 @@ bool any_loaded(const std::vector<Sizes>& parts) {
   return std::any_of(parts.begin(), parts.end(), [](const Sizes& part) { return part.load > 0; });
 }
 
-void add(double& norm, const Eigen::Ref<const Vector>& v) { norm = std::hypot(norm, v.stableNorm()); }
+void add(double& norm, const Eigen::Ref<const Vector>& v) {
+  constexpr double kSquares = 1e140;  // numbers up to it, and down to its inverse, have squares that add up
+  const double plain = v.norm();
+  norm = std::hypot(norm, plain < kSquares && plain > 1 / kSquares ? plain : v.stableNorm());
+}
 
 namespace {
 

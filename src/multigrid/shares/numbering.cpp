@@ -89,10 +89,10 @@ class Sharing {
   int nodes(int level) const {
     return level == 0 ? static_cast<int>(first_.size()) - 1 : static_cast<int>(coupling_.coarse[level - 1].cols()) / coupling_.dimension;
   }
-  /// Calls visit(node, row) for the rows of a level: supports may take components of a node, and their functions, away.
+  /// Calls visit(node, row) for the rows of nodes first … last − 1 of a level: supports may take components of a node, and their functions, away.
   template <class Visit>
-  void each_row(int level, Visit&& visit) const {
-    for (int node = 0; node < nodes(level); ++node) {
+  void each_row(int level, int first, int last, Visit&& visit) const {
+    for (int node = first; node < last; ++node) {
       const int begin = level == 0 ? first_[node] : node * coupling_.dimension, end = level == 0 ? first_[node + 1] : begin + coupling_.dimension;
       for (int row = begin; row < end; ++row) visit(node, row);
     }
@@ -103,9 +103,11 @@ class Sharing {
     const algebra::SparseRows& functions = coupling_.coarse[level];
     std::vector<int> parent(static_cast<std::size_t>(nodes(level)), -1);
     std::vector<double> greatest(parent.size(), 0);
-    each_row(level, [&](int node, int row) {
-      for (algebra::SparseRows::InnerIterator it(functions, row); it; ++it)
-        if (std::abs(it.value()) > greatest[node] * (1 + 1e-12)) greatest[node] = std::abs(it.value()), parent[node] = static_cast<int>(it.col()) / coupling_.dimension;
+    parallel_parts(nodes(level), [&](int begin, int end) {
+      each_row(level, begin, end, [&](int node, int row) {
+        for (algebra::SparseRows::InnerIterator it(functions, row); it; ++it)
+          if (std::abs(it.value()) > greatest[node] * (1 + 1e-12)) greatest[node] = std::abs(it.value()), parent[node] = static_cast<int>(it.col()) / coupling_.dimension;
+      });
     });
     for (std::size_t node = 0; node < parent.size(); ++node)
       if (parent[node] < 0) parent[node] = node > 0 ? parent[node - 1] : 0;
@@ -115,7 +117,7 @@ class Sharing {
   template <class Edge>
   void functions_meet(int level, Edge& edge) const {
     const algebra::SparseRows& functions = coupling_.coarse[level - 1];
-    each_row(level - 1, [&](int, int row) {
+    each_row(level - 1, 0, nodes(level - 1), [&](int, int row) {
       for (algebra::SparseRows::InnerIterator a(functions, row); a; ++a)
         for (algebra::SparseRows::InnerIterator b(functions, row); b && b.col() < a.col(); ++b)
           edge(static_cast<int>(a.col()) / coupling_.dimension, static_cast<int>(b.col()) / coupling_.dimension);

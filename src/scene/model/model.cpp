@@ -127,9 +127,10 @@ void add_body(const Body& body, Model& model) {
   block.node = numbering.node;
   block.kernel = std::move(rigid.modes);
   block.motions = std::move(rigid.motions);
-  block.rigid = [mesh = body.mesh, unknown = numbering.unknown, count = numbering.count()] { return elasticity::all_rigid_motions(*mesh, unknown, count); };
-  block.coarse = {mesh::coarser_nodes(*body.mesh), body.mesh->dimension(), [mesh = body.mesh, unknown = numbering.unknown, count = numbering.count()](int levels) {
-                    return elasticity::coarse_functions(*mesh, unknown, count, levels);
+  const auto unknown = std::make_shared<const std::vector<int>>(numbering.unknown);
+  block.rigid = [mesh = body.mesh, unknown, count = numbering.count()] { return elasticity::all_rigid_motions(*mesh, *unknown, count); };
+  block.coarse = {mesh::coarser_nodes(*body.mesh), body.mesh->dimension(), [mesh = body.mesh, unknown, count = numbering.count()](int levels) {
+                    return elasticity::coarse_functions(*mesh, *unknown, count, levels);
                   }, body.mesh->topology().order};
   block.first = model.problem.unknowns();
   model.problem.blocks.push_back(std::move(block));

@@ -19,13 +19,21 @@ Support on_nodes(const Part& part, SupportKind kind) {
   return support;
 }
 
+/// The last support up to `s` that prescribes component i at a node, `s` itself where it names the node twice.
+const Support& last_before(const Body& body, const Support& s, int node, int i) {
+  const Support* last = &s;
+  for (const Support* other = body.supports.data(); other != &s; ++other)
+    for (std::size_t k = 0; k < other->nodes.size(); ++k)
+      if (other->nodes[k] == node && other->components[k][i]) last = other;
+  return *last;
+}
+
 }  // namespace
 
 elasticity::Numbering number(const Body& body) {
   const int dim = body.dimension();
   std::vector<char> fixed(body.mesh->coordinates.size(), 0);
   std::vector<double> value(fixed.size(), 0.0);
-  std::vector<const Support*> by(fixed.size(), nullptr);
   double largest = 0;
   for (const Support& s : body.supports)
     for (const mesh::Point& v : s.values)
@@ -37,12 +45,11 @@ elasticity::Numbering number(const Body& body) {
         const std::size_t at = static_cast<std::size_t>(s.nodes[k]) * dim + i;
         if (fixed[at] && std::abs(value[at] - s.values[k][i]) > 1e-12 * largest)
           throw InputError(text("contradictory supports on '", body.name, "': at the node ",
-                                point_text(body.mesh->node(s.nodes[k]), dim), " part '", by[at]->part.name,
+                                point_text(body.mesh->node(s.nodes[k]), dim), " part '", last_before(body, s, s.nodes[k], i).part.name,
                                 "' prescribes u", "xyz"[i], " = ", value[at], " and part '", s.part.name,
                                 "' prescribes ", s.values[k][i]));
         fixed[at] = 1;
         value[at] = s.values[k][i];
-        by[at] = &s;
       }
   return elasticity::number(*body.mesh, fixed, std::move(value));
 }
