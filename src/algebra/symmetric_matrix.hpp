@@ -66,6 +66,13 @@ class SymmetricMatrix {
     const double* entry = diagonal_entry(lower(), j);
     return entry ? *entry : 0;
   }
+  /// Of moduli; no number where an entry is none.
+  double greatest_on_diagonal() const {
+    if (slices()) return greatest_of(slices()->diagonal());
+    Vector all(rows());
+    for (int j = 0; j < all.size(); ++j) all[j] = diagonal(j);
+    return greatest_of(all);
+  }
   /// The product with a vector, in its number type.
   template <class Numbers>
   typename Numbers::PlainObject times(const Numbers& x) const {
@@ -77,6 +84,7 @@ class SymmetricMatrix {
   }
 
  private:
+  static double greatest_of(const Vector& all) { return all.size() > 0 ? all.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() : 0; }
   struct Content {
     SparseMatrix lower;
     std::shared_ptr<const SlicedMatrix> slices;

@@ -205,22 +205,29 @@ DenseMatrix energies(const mesh::Mesh& mesh, const MaterialField& material, cons
   const auto at = [&](int node, int i) -> Row<d> {
     return numbering.unknown[static_cast<std::size_t>(node) * d + i] < 0 ? Row<d>(Row<d>::Zero()) : row<d>(frame, mesh.node(node), i);
   };
-  double x[E::nodes][d], k[E::nodes][E::nodes][d][d];
-  Eigen::Matrix<double, count, count> sum = Eigen::Matrix<double, count, count>::Zero();
-  for (const int c : volumes.held) {
-    const int* n = mesh.cell(c);
-    cell_coordinates<E>(mesh, c, x);
-    stiffness<E>(x, material.at(c), k);
-    Eigen::Matrix<double, E::nodes * d, E::nodes * d> whole;
-    Eigen::Matrix<double, E::nodes * d, count> F;
-    for (int a = 0; a < E::nodes; ++a)
-      for (int i = 0; i < d; ++i) {
-        F.row(a * d + i) = at(n[a], i);
-        for (int b = 0; b <= a; ++b)
-          for (int j = 0; j < d; ++j) whole(a * d + i, b * d + j) = whole(b * d + j, a * d + i) = k[a][b][i][j];
-      }
-    sum += F.transpose().lazyProduct(whole.lazyProduct(F).eval());
-  }
+  using Square = Eigen::Matrix<double, count, count>;
+  constexpr int kFewCells = 2'000;  // for a thread
+  const int cells = static_cast<int>(volumes.held.size());
+  std::vector<Square> sums(static_cast<std::size_t>(threads_for(cells, kFewCells)), Square::Zero());
+  parallel_ranges(cells, static_cast<int>(sums.size()), [&](int thread, int first, int end) {
+    double x[E::nodes][d], k[E::nodes][E::nodes][d][d];
+    for (int h = first; h < end; ++h) {
+      const int* n = mesh.cell(volumes.held[h]);
+      cell_coordinates<E>(mesh, volumes.held[h], x);
+      stiffness<E>(x, material.at(volumes.held[h]), k);
+      Eigen::Matrix<double, E::nodes * d, E::nodes * d> whole;
+      Eigen::Matrix<double, E::nodes * d, count> F;
+      for (int a = 0; a < E::nodes; ++a)
+        for (int i = 0; i < d; ++i) {
+          F.row(a * d + i) = at(n[a], i);
+          for (int b = 0; b <= a; ++b)
+            for (int j = 0; j < d; ++j) whole(a * d + i, b * d + j) = whole(b * d + j, a * d + i) = k[a][b][i][j];
+        }
+      sums[thread] += F.transpose().lazyProduct(whole.lazyProduct(F).eval());
+    }
+  });
+  Square& sum = sums[0];
+  for (std::size_t t = 1; t < sums.size(); ++t) sum += sums[t];
   sum(count - 1, count - 1) += volumes.dilated / (frame.size * frame.size);
   for (const FacetSpring& spring : springs)
     for_each_facet_point(mesh, spring.facet, [&](const FacetPoint& p) {

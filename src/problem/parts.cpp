@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "algebra/dense/generalised_inverse.hpp"
 #include "algebra/dense/null_space.hpp"
+#include "base/parallel.hpp"
 
 namespace dotyk::problem {
 
@@ -56,9 +58,17 @@ bool any_loaded(const std::vector<Sizes>& parts) {
   return std::any_of(parts.begin(), parts.end(), [](const Sizes& part) { return part.load > 0; });
 }
 
+double dot(const Eigen::Ref<const Vector>& a, const Eigen::Ref<const Vector>& b) {
+  constexpr int kFew = 100'000;  // numbers, for a thread
+  const int size = static_cast<int>(a.size());
+  std::vector<double> sums(static_cast<std::size_t>(threads_for(size, kFew)), 0.0);
+  parallel_ranges(size, static_cast<int>(sums.size()), [&](int k, int first, int end) { sums[k] = a.segment(first, end - first).dot(b.segment(first, end - first)); });
+  return std::accumulate(sums.begin(), sums.end(), 0.0);
+}
+
 void add(double& norm, const Eigen::Ref<const Vector>& v) {
   constexpr double kSquares = 1e140;  // numbers up to it, and down to its inverse, have squares that add up
-  const double plain = v.norm();
+  const double plain = std::sqrt(dot(v, v));
   norm = std::hypot(norm, plain < kSquares && plain > 1 / kSquares ? plain : v.stableNorm());
 }
 
@@ -66,13 +76,13 @@ namespace {
 
 /// About ‖|K||w|‖ and rarely less, without a pass over K: no entry is greater than the greatest on the diagonal.
 double size_of_gross_forces(const Block& block, const Vector& w) {
-  double greatest = 0;
-  for (int j = 0; j < block.size(); ++j) greatest = std::max(greatest, block.K.diagonal(j));
   int entries = 0;
   if (block.K.slices()) entries = block.K.slices()->most_entries();
   else
     for (const int *outer = block.K.lower().outerIndexPtr(), *end = outer + block.size(); outer < end; ++outer) entries = std::max(entries, 2 * (outer[1] - outer[0]));
-  return greatest * entries * w.stableNorm();
+  double size = 0;
+  add(size, w);
+  return block.K.greatest_on_diagonal() * entries * size;
 }
 
 void add_scales_of_others(std::vector<Sizes>& parts) {

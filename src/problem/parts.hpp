@@ -46,6 +46,8 @@ bool any_loaded(const std::vector<Sizes>& parts);
 /// By part.
 std::vector<Sizes> sizes(const Problem& problem, const State& state, const Forces& all, const Parts& parts);
 
+/// a · b, on all cores.
+double dot(const Eigen::Ref<const algebra::Vector>& a, const Eigen::Ref<const algebra::Vector>& b);
 /// Adds a vector to a norm.
 void add(double& norm, const Eigen::Ref<const algebra::Vector>& v);
 

@@ -102,7 +102,7 @@ void require_moderate(const Problem& problem, double most_force) {
   double stiffness = 0, force = 0, gap = 0;
   const auto grow = [](double& greatest, double value) { greatest = std::isnan(value) ? INFINITY : std::max(greatest, std::abs(value)); };
   for (const Block& block : problem.blocks) {
-    for (int j = 0; j < block.size(); ++j) grow(stiffness, block.K.diagonal(j));
+    grow(stiffness, block.K.greatest_on_diagonal());
     for (const double f : block.f) grow(force, f);
   }
   for (const double c : problem.c)
@@ -181,7 +181,16 @@ Numbers times(const Problem& problem, const Numbers& u) {
 
 }  // namespace
 
-Vector stiffness_times(const Problem& problem, const Vector& u) { return times<LongVector>(problem, u.cast<long double>()).cast<double>(); }
+Vector stiffness_times(const Problem& problem, const Vector& u) {
+  const auto* all = slices(problem);
+  if (!all) return times<LongVector>(problem, u.cast<long double>()).cast<double>();
+  const auto vectors = all->vectors({});
+  algebra::LongField moved{algebra::Field(vectors), algebra::Field(vectors)};
+  algebra::Field force(vectors);
+  moved.high.put(u);
+  all->take_product(moved, true, force);
+  return -force.get();
+}
 LongVector precise_stiffness_times(const Problem& problem, const LongVector& u) { return times(problem, u); }
 Vector rough_stiffness_times(const Problem& problem, const Vector& u) { return times(problem, u); }
 

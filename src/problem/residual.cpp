@@ -7,6 +7,7 @@
 
 #include "algebra/dense/decompositions.hpp"
 #include "algebra/dense/generalised_inverse.hpp"
+#include "base/parallel.hpp"
 #include "base/text.hpp"
 #include "problem/parts.hpp"
 
@@ -51,7 +52,7 @@ double energy(const Problem& problem, const State& state, const Vector& internal
   double e = 0;
   for (const Block& block : problem.blocks) {
     const auto u = state.u.segment(block.first, block.size());
-    e += block.offset + 0.5 * u.dot(internal.segment(block.first, block.size())) - u.dot(block.f);
+    e += block.offset + 0.5 * dot(u, internal.segment(block.first, block.size())) - dot(u, block.f);
   }
   const Vector x = problem.B * state.u - problem.c;
   for (const RowGroup& group : problem.groups)
@@ -195,8 +196,8 @@ double complementarity(const Problem& problem, const State& state, const Vector&
     }
   for (std::size_t b = 0; b < problem.blocks.size(); ++b) {
     const auto own = [&](const Vector& v) { return v.segment(problem.blocks[b].first, problem.blocks[b].size()); };
-    internal[parts.of_block[b]] += 0.5 * own(state.u).dot(own(m.forces.internal));
-    external[parts.of_block[b]] += own(state.u).dot(own(m.forces.load));
+    internal[parts.of_block[b]] += 0.5 * dot(own(state.u), own(m.forces.internal));
+    external[parts.of_block[b]] += dot(own(state.u), own(m.forces.load));
   }
   for (std::size_t p = 0; p < work.size(); ++p) work[p] += std::abs(internal[p]) + std::abs(external[p]);
   const std::vector<double> beside_others = least_beside_others(work, any_loaded(m.sizes));
@@ -227,7 +228,11 @@ Residual residual(const Problem& problem, const State& state) {
   Residual result;
   const Measured m(problem, state, forces(problem, state));
   result.energy = energy(problem, state, m.forces.internal);
-  const Vector left = m.forces.internal + m.forces.contact - m.forces.load;
+  Vector left(state.u.size());
+  parallel_parts(left.size(), [&](int first, int end) {
+    const auto own = [&](const Vector& v) { return v.segment(first, end - first); };
+    left.segment(first, end - first) = own(m.forces.internal) + own(m.forces.contact) - own(m.forces.load);
+  });
   result.equilibrium = greatest_ratio(norms(problem, m.parts, [&](const Block& block) { return left.segment(block.first, block.size()); }),
                                       [&](std::size_t p) { return m.sizes[p].force(); });
   if (problem.rows() == 0) return result;
