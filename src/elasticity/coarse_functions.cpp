@@ -1,6 +1,7 @@
 #include "elasticity/coarse_functions.hpp"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 
 #include "base/parallel.hpp"
@@ -29,26 +30,24 @@ std::vector<algebra::SparseRows> coarse_functions(const mesh::Mesh& mesh, const 
           if (const auto at = d * of[0] + k; row[d * i + k] >= 0) column[at] = static_cast<int>(at);
     });
     algebra::SparseRows& functions = all.emplace_back(all.empty() ? unknowns : static_cast<int>(row.size()), static_cast<int>(column.size()));
-    Eigen::VectorXi counts = Eigen::VectorXi::Zero(functions.rows());
-    const auto each = [&](auto&& work) {
-      each_node([&](int i) {
-        for (std::size_t k = 0; k < d; ++k)
-          for (const int p : means(i))
-            if (row[d * i + k] >= 0 && column[d * p + k] >= 0) work(i, row[d * i + k], column[d * p + k]);
-      });
-    };
-    each([&](int, int r, int) { ++counts[r]; });
     int* starts = functions.outerIndexPtr();
-    std::partial_sum(counts.begin(), counts.end(), starts + 1);
-    functions.resizeNonZeros(starts[functions.rows()]);
-    std::vector<int> next(starts, starts + functions.rows());
-    each([&](int i, int r, int c) {
-      functions.innerIndexPtr()[next[r]] = c;
-      functions.valuePtr()[next[r]++] = 1.0 / static_cast<double>(means(i).size());
-    });
     each_node([&](int i) {
       for (std::size_t k = 0; k < d; ++k)
-        if (const int r = row[d * i + k]; r >= 0) std::sort(functions.innerIndexPtr() + starts[r], functions.innerIndexPtr() + starts[r + 1]);  // the numbers of a row are equal
+        if (const int r = row[d * i + k]; r >= 0) starts[r + 1] = static_cast<int>(std::ranges::count_if(means(i), [&](int p) { return column[d * p + k] >= 0; }));
+    });
+    std::partial_sum(starts, starts + functions.rows() + 1, starts);
+    functions.resizeNonZeros(starts[functions.rows()]);
+    each_node([&](int i) {
+      std::array<int, 8> sorted{};
+      const auto of = means(i);
+      const auto end = std::ranges::copy(of, sorted.begin()).out;
+      std::sort(sorted.begin(), end);
+      for (std::size_t k = 0; k < d; ++k) {
+        if (row[d * i + k] < 0) continue;
+        int at = starts[row[d * i + k]];
+        for (auto p = sorted.begin(); p != end; ++p)
+          if (const int c = column[d * *p + k]; c >= 0) functions.innerIndexPtr()[at] = c, functions.valuePtr()[at++] = 1.0 / static_cast<double>(of.size());
+      }
     });
     row = std::move(column);
   }

@@ -24,13 +24,10 @@ Point Mesh::cell_centre(int c) const { return mean(cell(c), topology().nodes); }
 
 Box Mesh::box() const {
   Box box;
-  const int nodes = node_count(), d = dimension();
-  if (nodes > 0) box.add(point(0));
-  for (int i = 0; i < d; ++i) {
-    double low = box.low[i], high = box.high[i];
-    for (int k = 0; k < nodes; ++k) low = std::min(low, node(k)[i]), high = std::max(high, node(k)[i]);
-    box.low[i] = low, box.high[i] = high;
-  }
+  if (node_count() > 0) box.add(point(0));
+  const auto d = static_cast<std::size_t>(dimension());
+  for (std::size_t k = 0; k < coordinates.size(); k += d)
+    for (std::size_t i = 0; i < d; ++i) box.low[i] = std::min(box.low[i], coordinates[k + i]), box.high[i] = std::max(box.high[i], coordinates[k + i]);
   return box;
 }
 

@@ -94,7 +94,7 @@ TEST_CASE("incomplete Cholesky reproduces K on its pattern, and is exact where n
 TEST_CASE("where the incomplete factorisation breaks down the matrix is shifted, and it converges all the same") {
   // Kershaw's matrix: positive definite, with a negative pivot without fill-in.
   const DenseMatrix K{{3, -2, 0, 2}, {-2, 3, -2, 0}, {0, -2, 3, -2}, {2, 0, -2, 3}};
-  REQUIRE(eigenvalues(K)[0] > 0);
+  REQUIRE(algebra::eigenvalues(K)[0] > 0);
   const SparseMatrix lower = test::lower(K);
   const algebra::IncompleteCholesky ic(lower);
   CHECK(ic.shift() > 0);
