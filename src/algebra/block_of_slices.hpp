@@ -17,9 +17,8 @@ class BlockOfSlices final : public SlicedMatrix {
   BlockOfSlices(std::shared_ptr<const SlicedMatrix> whole, Eigen::Index first, Eigen::Index size) : whole_(std::move(whole)), first_(first) {
     diagonal_ = whole_->diagonal().segment(first, size), most_entries_ = whole_->most_entries();
   }
-  Vector times(const Eigen::Ref<const Vector>& x) const override { return own(whole_->times(padded<Vector>(x))); }
-  LongVector times(const Eigen::Ref<const LongVector>& x) const override { return own(whole_->times(padded<LongVector>(x))); }
-  Vector gross_times(const Vector& x) const override { return own(whole_->gross_times(padded<Vector>(x))); }
+  Vector times(const Eigen::Ref<const Vector>& x) const override { return own(whole_->times(padded(x))); }
+  Vector gross_times(const Vector& x) const override { return own(whole_->gross_times(padded(x))); }
   StoredMatrix near(std::vector<char>& of, int layers) const override {
     std::vector<char> all(static_cast<std::size_t>(whole_->diagonal().size()), 0);
     const auto begin = all.begin() + first_, end = begin + std::ssize(of);
@@ -38,13 +37,9 @@ class BlockOfSlices final : public SlicedMatrix {
   Eigen::Index first() const { return first_; }  ///< its first unknown among those of the whole
 
  private:
-  template <class Numbers>
-  Numbers own(const Numbers& of_all) const {
-    return of_all.segment(first_, diagonal_.size());
-  }
-  template <class Numbers>
-  Numbers padded(const Eigen::Ref<const Numbers>& x) const {
-    Numbers all = Numbers::Zero(whole_->diagonal().size());
+  Vector own(const Vector& of_all) const { return of_all.segment(first_, diagonal_.size()); }
+  Vector padded(const Eigen::Ref<const Vector>& x) const {
+    Vector all = Vector::Zero(whole_->diagonal().size());
     all.segment(first_, x.size()) = x;
     return all;
   }

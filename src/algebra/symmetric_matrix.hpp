@@ -3,6 +3,7 @@
 #include <cmath>
 #include <memory>
 #include <mutex>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -19,7 +20,6 @@ class SlicedMatrix {
  public:
   virtual ~SlicedMatrix() = default;
   virtual Vector times(const Eigen::Ref<const Vector>& x) const = 0;
-  virtual LongVector times(const Eigen::Ref<const LongVector>& x) const = 0;  ///< in extended precision
   virtual Vector gross_times(const Vector& x) const = 0;                      ///< |A| |x|
   /// Flags so many layers of neighbours in `of` as well, and returns the lower triangle with the entries in rows and columns of flagged unknowns alone.
   /// Throws InputError where there is not enough memory.
@@ -73,10 +73,12 @@ class SymmetricMatrix {
     for (int j = 0; j < all.size(); ++j) all[j] = diagonal(j);
     return greatest_of(all);
   }
-  /// The product with a vector, in its number type.
+  /// The product with a vector, in its number type. In extended precision a distributed matrix is gathered: SlicedMatrix::take_product() does without.
   template <class Numbers>
   typename Numbers::PlainObject times(const Numbers& x) const {
-    return slices() ? slices()->times(x) : symmetric_product(lower(), x);
+    if constexpr (std::is_same_v<typename Numbers::Scalar, double>)
+      if (slices()) return slices()->times(x);
+    return symmetric_product(lower(), x);
   }
   /// |A| |x|.
   Vector gross_times(const Vector& x) const {

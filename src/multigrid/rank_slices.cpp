@@ -19,7 +19,6 @@ namespace dotyk::multigrid {
 
 namespace {
 
-using algebra::LongVector;
 using algebra::Vector;
 
 void send(const Ranks& ranks, int to, const Rows& rows) { ranks.send(to, rows.starts), ranks.send(to, rows.columns), ranks.send(to, rows.values); }
@@ -162,36 +161,27 @@ void RankSlices::multiply(Slice::Product how, RankVectors& v, const Slice::Facto
   const Ranks& ranks = workers_.ranks();
   ranks.together([&] {
     workers_.tell(Task::multiply);
-    for (int r = 1; r < ranks.count(); ++r) ranks.send(r, std::vector<int>{v.number(), static_cast<int>(how), of.x, of.x_low, of.y, of.y_low});
+    for (int r = 1; r < ranks.count(); ++r) ranks.send(r, std::vector<int>{v.number(), static_cast<int>(how), of.x, of.x_low, of.y});
     slice_->multiply(how, v.own(), of);
   });
 }
 
 void RankSlices::take_product(const algebra::LongField& u, bool precisely, algebra::Field& from) const {
   multiply(precisely ? Slice::Product::taken_precisely : Slice::Product::taken, static_cast<RankVectors&>(*from.where()),
-           {u.high.number(), u.low.number(), from.number(), 0});
+           {u.high.number(), u.low.number(), from.number()});
 }
 
 Vector RankSlices::product(Slice::Product how, const Vector& x) const {
   const auto room = std::make_shared<RankVectors>(workers_, numbering_, std::vector<int>());
   algebra::Field factor(room), result(room);
   factor.put(x);
-  multiply(how, *room, {factor.number(), 0, result.number(), 0});
+  multiply(how, *room, {factor.number(), 0, result.number()});
   return result.get();
 }
 
 Vector RankSlices::times(const Eigen::Ref<const Vector>& x) const { return product(Slice::Product::plain, x); }
 
 Vector RankSlices::gross_times(const Vector& x) const { return product(Slice::Product::gross, x.cwiseAbs()); }
-
-LongVector RankSlices::times(const Eigen::Ref<const LongVector>& x) const {
-  const auto room = std::make_shared<RankVectors>(workers_, numbering_, std::vector<int>());
-  algebra::LongField factor{algebra::Field(room), algebra::Field(room)}, result = factor;
-  const Vector high = x.cast<double>();
-  factor.high.put(high), factor.low.put((x - high.cast<long double>()).cast<double>());
-  multiply(Slice::Product::precise, *room, {factor.high.number(), factor.low.number(), result.high.number(), result.low.number()});
-  return result.high.get().cast<long double>() + result.low.get().cast<long double>();
-}
 
 namespace {
 

@@ -20,7 +20,6 @@ class RankSlices final : public algebra::SlicedMatrix {
   ~RankSlices() override;
 
   algebra::Vector times(const Eigen::Ref<const algebra::Vector>& x) const override;
-  algebra::LongVector times(const Eigen::Ref<const algebra::LongVector>& x) const override;
   algebra::Vector gross_times(const algebra::Vector& x) const override;
   algebra::StoredMatrix near(std::vector<char>& of, int layers) const override;
   std::shared_ptr<algebra::Vectors> vectors(const std::vector<int>& watched) const override;

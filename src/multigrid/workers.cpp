@@ -95,7 +95,7 @@ void solve(Cycle& cycle, Vectors& vectors) {
 void multiply(Slice& slice, Vectors& vectors) {
   std::vector<int> which;
   world().receive(0, which);
-  slice.multiply(static_cast<Slice::Product>(which[1]), vectors.at(which[0]), {which[2], which[3], which[4], which[5]});
+  slice.multiply(static_cast<Slice::Product>(which[1]), vectors.at(which[0]), {which[2], which[3], which[4]});
 }
 
 /// Where solvers still live, as when a script ends by os.exit, PETSc cannot be ended: MPI alone is.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "algebra/block_of_slices.hpp"
 #include "algebra/congruent.hpp"
@@ -172,7 +173,8 @@ namespace {
 template <class Numbers>
 Numbers times(const Problem& problem, const Numbers& u) {
   if (problem.blocks.size() == 1) return problem.blocks[0].K.times(u);
-  if (const auto* all = slices(problem)) return all->times(u);
+  if constexpr (std::is_same_v<Numbers, Vector>)
+    if (const auto* all = slices(problem)) return all->times(u);
   Numbers result(problem.unknowns());
   for (const Block& block : problem.blocks)
     result.segment(block.first, block.size()) = block.K.times(Eigen::Map<const Numbers>(u.data() + block.first, block.size()));

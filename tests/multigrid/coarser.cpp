@@ -77,8 +77,18 @@ TEST_CASE("what slices tell is what their lower triangle says") {
   CHECK((A.times(x) - algebra::symmetric_product(lower, x)).norm() <= 1e-14 * A.gross_times(x).norm());
   CHECK((A.gross_times(x) - algebra::symmetric_product(lower, Vector(x.cwiseAbs()), [](double a) { return std::abs(a); })).norm() <= 1e-14 * A.gross_times(x).norm());
   // In extended precision, of a vector that needs it: sums of 81 products.
-  const algebra::LongVector u = x.cast<long double>() + 1e-18L * algebra::LongVector::Ones(x.size()), precise = A.times(u);
-  CHECK(static_cast<double>((precise - algebra::symmetric_product(lower, u)).norm()) <= 1e-17 * A.gross_times(x).norm());
+  const Vector low = Vector::Constant(x.size(), 1e-18);
+  const algebra::LongVector product = algebra::symmetric_product(lower, algebra::LongVector(x.cast<long double>() + low.cast<long double>()));
+  const auto vectors = A.slices()->vectors({});
+  algebra::LongField u{algebra::Field(vectors), algebra::Field(vectors)};
+  algebra::Field left(vectors);
+  u.high.put(x), u.low.put(low), left.put(product.cast<double>());
+  A.slices()->take_product(u, true, left);  // but for the rounding of the product
+  const Vector rounding = (product.cast<double>().cast<long double>() - product).cast<double>();
+  CHECK((left.get() - rounding).norm() <= 1e-17 * A.gross_times(x).norm());
+  left.put(Vector::Zero(x.size()));
+  A.slices()->take_product(u, false, left);
+  CHECK(left.get() == -A.times(x));
   int most = 0;
   std::vector<int> entries(static_cast<std::size_t>(lower.cols()), 0);
   for (int j = 0; j < lower.cols(); ++j) {

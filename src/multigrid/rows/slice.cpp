@@ -57,12 +57,6 @@ std::vector<long double> sum(const std::vector<double>& high, const std::vector<
   return all;
 }
 
-/// A (x + low) in extended precision.
-std::vector<long double> precise_product(HalfMatrix& A, const std::vector<double>& x, const std::vector<double>& low) {
-  const std::vector<double> theirs = A.theirs(x.data());
-  return product(A, sum(x, low), sum(theirs, A.theirs(low.data())), [](double a) { return a; });
-}
-
 }  // namespace
 
 Slice::Slice(const Ranks& ranks, HalfRows rows, const std::vector<int>& idle)
@@ -106,14 +100,10 @@ void Slice::multiply(Product how, algebra::VectorParts& v, const Factors& of) {
         return;
       }
       case Product::taken_precisely: {
-        const std::vector<long double> times = precise_product(A, x, v[of.x_low]);
+        const std::vector<double>&low = v[of.x_low], theirs = A.theirs(x.data());
+        const auto times = product(A, sum(x, low), sum(theirs, A.theirs(low.data())), [](double a) { return a; });
         for (std::size_t i = 0; i < y.size(); ++i) y[i] = static_cast<double>(y[i] - times[i]);
         return;
-      }
-      case Product::precise: {
-        const std::vector<long double> times = precise_product(A, x, v[of.x_low]);
-        std::vector<double>& low = v[of.y_low];
-        for (std::size_t i = 0; i < y.size(); ++i) y[i] = static_cast<double>(times[i]), low[i] = static_cast<double>(times[i] - y[i]);
       }
     }
   });

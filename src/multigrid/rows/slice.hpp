@@ -78,12 +78,12 @@ class Slice {
     return matrix_->as_before([&](HalfMatrix& A) { return A.full(rows); });
   }
 
-  enum class Product : int { plain, gross, precise, taken, taken_precisely };
+  enum class Product : int { plain, gross, taken, taken_precisely };
   /// The vectors of a product, of own rows.
   struct Factors {
-    int x, x_low, y, y_low;
+    int x, x_low, y;
   };
-  /// y = A x; |A| x; y + y_low = A (x + x_low) in extended precision; y −= A x; y −= A (x + x_low).
+  /// y = A x; y = |A| x; y −= A x; y −= A (x + x_low) in extended precision.
   void multiply(Product how, algebra::VectorParts& v, const Factors& of);
 
  private:
