@@ -14,10 +14,10 @@ namespace dotyk::algebra {
 class Vectors {
  public:
   virtual ~Vectors() = default;
-  int next() { return ++last_; }
-  virtual double run(const VectorOrder& order) = 0;
-  virtual Vector get(int v) = 0;
-  virtual void put(int v, const Vector& numbers) = 0;
+  int next() { return ++last_; }                       ///< the number of a new vector, to be made by Op::make
+  virtual double run(const VectorOrder& order) = 0;    ///< what the order tells, else 0
+  virtual Vector get(int v) = 0;                       ///< all numbers, in the order of the unknowns
+  virtual void put(int v, const Vector& numbers) = 0;  ///< likewise
   virtual Vector watched(int v) = 0;
   virtual void set_watched(int v, const Vector& numbers) = 0;
 
@@ -54,7 +54,7 @@ class Field {
   void add(double factor, const Field& what) { where_->run({Op::add, number_, what.number_, 0, 0, factor}); }
   double dot(const Field& other) const { return run(Op::dot, other.number_); }
   double moduli() const { return run(Op::moduli); }      ///< ‖·‖₁; no number where one is none
-  double greatest() const { return run(Op::greatest); }  ///< ‖·‖∞
+  double greatest() const { return run(Op::greatest); }  ///< ‖·‖∞; numbers that are none may go unseen, moduli() shows them
   Vector get() const { return where_->get(number_); }
   void put(const Vector& numbers) { where_->put(number_, numbers); }
   Vector watched() const { return where_->watched(number_); }
@@ -72,12 +72,12 @@ class Field {
   int number_ = 0;
 };
 
-/// The sum of two vectors, of which one is the other's rounding: a vector in extended precision.
+/// A vector in extended precision: the sum of `high`, which is the sum rounded to double, and `low`, what that lacks.
 struct LongField {
   Field high, low;
 
   void add(double factor, const Field& by) { high.where()->run({VectorOrder::Op::add_exactly, high.number(), low.number(), by.number(), 0, factor}); }
-  /// From `other` so far on the way to this.
+  /// Becomes other + part (this − other).
   void go_back(const LongField& other, double part) {
     high.where()->run({VectorOrder::Op::blend, high.number(), low.number(), other.high.number(), other.low.number(), part});
   }

@@ -22,9 +22,9 @@ class SpdSolver {
   virtual Vector solve(const Vector& b, double tolerance, Vector* left = nullptr) = 0;
   struct Solved {
     bool found = true;       ///< else x has no meaning
-    bool left_told = false;  ///< as iterations know it
+    bool left_told = false;  ///< is `left` set? It is b − A x, as iterations know it
   };
-  /// The same for vectors that lie in one place. b is as before at the end, but may change meanwhile.
+  /// solve() for vectors of one place. b may change meanwhile, and is restored unless this throws.
   virtual Solved solve_fields(Field& b, double tolerance, Field& x, Field& left) {
     Vector rest;
     const Vector solution = solve(b.get(), tolerance, &rest);

@@ -24,9 +24,9 @@ class SlicedMatrix {
   /// Flags so many layers of neighbours in `of` as well, and returns the lower triangle with the entries in rows and columns of flagged unknowns alone.
   /// Throws InputError where there is not enough memory.
   virtual StoredMatrix near(std::vector<char>& of, int layers = 0) const = 0;
-  /// Vectors that lie where the rows do; `watched`: unknowns, ascending. And from −= A u for such vectors, in extended precision or with u.high alone.
-  /// Not of a block.
+  /// Vectors that lie where the rows do; `watched`: unknowns, ascending. A block has none.
   virtual std::shared_ptr<Vectors> vectors(const std::vector<int>& watched) const = 0;
+  /// from −= A u for such vectors: in extended precision, or in double precision with u.high alone.
   virtual void take_product(const LongField& u, bool precisely, Field& from) const = 0;
 
   const Vector& diagonal() const { return diagonal_; }
@@ -66,7 +66,7 @@ class SymmetricMatrix {
     const double* entry = diagonal_entry(lower(), j);
     return entry ? *entry : 0;
   }
-  /// Of moduli; no number where an entry is none.
+  /// The greatest modulus on the diagonal; NaN where an entry is NaN.
   double greatest_on_diagonal() const {
     if (slices()) return greatest_of(slices()->diagonal());
     Vector all(rows());

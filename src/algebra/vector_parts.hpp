@@ -32,7 +32,7 @@ struct VectorOrder {
 /// Vectors of one length, or what one process has of such vectors.
 class VectorParts {
  public:
-  /// `watched`: places that are asked for. `threads`: on all cores, else on one.
+  /// `watched`: places, in the order in which watched() tells them. `threads`: on all cores, else on one.
   VectorParts(std::ptrdiff_t size, std::vector<int> watched, bool threads) : size_(size), watched_(std::move(watched)), threads_(threads ? threads_for(size, kFew) : 1) {}
 
   std::vector<double>& operator[](int v) { return vectors_.at(v); }

@@ -27,7 +27,7 @@ void derivative(const double x[][E::dim], const std::array<double, E::dim>& xi, 
     }
 }
 
-/// Its determinant.
+/// The determinant of j at `xi`.
 template <class E>
 double jacobian(const double x[][E::dim], const std::array<double, E::dim>& xi) {
   double r[E::nodes][E::dim], j[3][3];

@@ -78,7 +78,7 @@ void check(const Mesh& mesh, const std::string& what) {
   parallel_ranges(mesh.cell_count(), threads_for(mesh.cell_count(), kFew), [&](int, int first, int end) {
     for (int c = first; c < end; ++c) check_cell(mesh, c, what);
   });
-  if (mesh.one_piece()) return;
+  if (mesh.one_piece()) return;  // by how it was made: no cell twice, no stray node
   refuse_repeated_cells(mesh, what);
   refuse_stray_nodes(mesh, what);
 }

@@ -36,8 +36,8 @@ struct Mesh {
   std::vector<int> cells;           ///< nodes per cell × cell_count, cell by cell
   std::map<std::string, std::vector<Facet>> parts;
   std::shared_ptr<const Coarser> coarser = nullptr;  ///< where it is known
-  /// Nodes and cells that a generator made, wherever it put the nodes: while there are so many the mesh is known to be in one piece (see pieces_of), with no
-  /// cell twice and no node without a cell.
+  /// Sizes of `coordinates` and `cells` as a grid, or what keeps its cells together (order 2, cutting), made them. While they are these, the mesh is in one piece
+  /// (see pieces_of), with no cell twice and no node without a cell; nodes may have moved. Who exchanges cells clears it.
   std::array<std::size_t, 2> generated{};
   bool one_piece() const { return generated == std::array{coordinates.size(), cells.size()} && !cells.empty(); }
 

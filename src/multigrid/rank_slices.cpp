@@ -6,6 +6,7 @@
 #include <limits>
 #include <mutex>
 #include <numeric>
+#include <stdexcept>
 #include <utility>
 
 #include "base/error.hpp"
@@ -167,8 +168,9 @@ void RankSlices::multiply(Slice::Product how, RankVectors& v, const Slice::Facto
 }
 
 void RankSlices::take_product(const algebra::LongField& u, bool precisely, algebra::Field& from) const {
-  multiply(precisely ? Slice::Product::taken_precisely : Slice::Product::taken, static_cast<RankVectors&>(*from.where()),
-           {u.high.number(), u.low.number(), from.number()});
+  auto* vectors = dynamic_cast<RankVectors*>(from.where().get());
+  if (!vectors || &vectors->numbering() != numbering_.get()) throw std::logic_error("slices: vectors that lie elsewhere");
+  multiply(precisely ? Slice::Product::taken_precisely : Slice::Product::taken, *vectors, {u.high.number(), u.low.number(), from.number()});
 }
 
 Vector RankSlices::product(Slice::Product how, const Vector& x) const {

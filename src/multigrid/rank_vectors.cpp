@@ -23,17 +23,18 @@ double run_together(const Ranks& ranks, const VectorOrder& order, VectorParts& o
   }
 }
 
-/// Places of the watched unknowns in rank 0's part; `of_ranks`: by rank their places among `watched`.
-std::vector<int> own_places(const Numbering& numbering, const std::vector<int>& watched, const std::vector<std::vector<int>>& of_ranks, int rank) {
-  std::vector<int> rows;
-  for (const int k : of_ranks[rank]) rows.push_back(numbering.slot()[watched[k]] - numbering.first(0)[rank]);
-  return rows;
-}
-
+/// By rank the places, among `watched`, of the unknowns that it has.
 std::vector<std::vector<int>> by_rank(const Numbering& numbering, const std::vector<int>& watched, int ranks) {
   std::vector<std::vector<int>> places(static_cast<std::size_t>(ranks));
   for (std::size_t k = 0; k < watched.size(); ++k) places[numbering.rank_of(numbering.slot()[watched[k]])].push_back(static_cast<int>(k));
   return places;
+}
+
+/// Rows of the watched unknowns in a rank's part, counted from its first; `of_ranks`: as by_rank() gives them.
+std::vector<int> own_places(const Numbering& numbering, const std::vector<int>& watched, const std::vector<std::vector<int>>& of_ranks, int rank) {
+  std::vector<int> rows;
+  for (const int k : of_ranks[rank]) rows.push_back(numbering.slot()[watched[k]] - numbering.first(0)[rank]);
+  return rows;
 }
 
 int size_of(const Numbering& numbering, int rank) { return numbering.first(0)[rank + 1] - numbering.first(0)[rank]; }

@@ -59,7 +59,7 @@ int& living() {
   return count;
 }
 
-/// The next task and the number of its solver. MPI would keep a processor busy with waiting.
+/// The next task and the number of what it is for. MPI would keep a processor busy with waiting.
 std::vector<int> next_task() {
   constexpr int kShortest = 50, kLongest = 2000;  // microseconds
   int there = 0;
@@ -175,28 +175,28 @@ void work(bool spawned, Assemble assemble) {
   world().together([&] {
     for (;;) {
       const std::vector<int> order = next_task();
-      const int solver = order[1];
+      const int number = order[1];
       switch (static_cast<Task>(order[0])) {
-        case Task::make: cycles[solver] = make(slices); break;
-        case Task::set: cycles.at(solver)->set(receive_change(world(), 0)); break;
-        case Task::solve: solve(*cycles.at(solver), vectors); break;
-        case Task::drop: cycles.erase(solver); break;
-        case Task::slice: slices[solver] = receive_slice(world(), assemble); break;
-        case Task::multiply: multiply(*slices.at(solver), vectors); break;
-        case Task::some: tell_some(world(), *slices.at(solver)); break;
-        case Task::drop_slice: slices.erase(solver); break;
-        case Task::vectors: vectors.insert_or_assign(solver, receive_vectors(world())); break;
-        case Task::order: run_order(world(), vectors.at(solver)); break;
+        case Task::make: cycles[number] = make(slices); break;
+        case Task::set: cycles.at(number)->set(receive_change(world(), 0)); break;
+        case Task::solve: solve(*cycles.at(number), vectors); break;
+        case Task::drop: cycles.erase(number); break;
+        case Task::slice: slices[number] = receive_slice(world(), assemble); break;
+        case Task::multiply: multiply(*slices.at(number), vectors); break;
+        case Task::some: tell_some(world(), *slices.at(number)); break;
+        case Task::drop_slice: slices.erase(number); break;
+        case Task::vectors: vectors.insert_or_assign(number, receive_vectors(world())); break;
+        case Task::order: run_order(world(), vectors.at(number)); break;
         case Task::get:
         case Task::put:
         case Task::watched:
-        case Task::set_watched: exchange_numbers(world(), static_cast<Task>(order[0]), vectors.at(solver)); break;
-        case Task::drop_vectors: vectors.erase(solver); break;
+        case Task::set_watched: exchange_numbers(world(), static_cast<Task>(order[0]), vectors.at(number)); break;
+        case Task::drop_vectors: vectors.erase(number); break;
         case Task::end:
           stop_watching();
-          if (!solver)
-            for (auto& [number, cycle] : cycles) static_cast<void>(cycle.release());
-          finalise(solver != 0);
+          if (!number)
+            for (auto& [of, cycle] : cycles) static_cast<void>(cycle.release());
+          finalise(number != 0);
           return;
       }
     }

@@ -19,7 +19,7 @@ class Workers {
   void tell(Task task, int rank) const;  ///< the same to one rank
   Workers next() const;                  ///< the same ranks, for another solver, other slices or vectors
   int number() const { return number_; }  ///< by which the ranks know these, from 1
-  void made() const;  ///< the solver, or the slices, live, until they tell `drop` or `drop_slice`
+  void made() const;  ///< the solver, or the slices, live, until they tell `drop` or `drop_slice`; vectors are not counted, because they hold nothing of PETSc's
 
  private:
   Ranks ranks_;

@@ -138,7 +138,7 @@ using algebra::LongVector;
 LongVector precise_stiffness_times(const Problem& problem, const LongVector& u);
 /// The same in the precision of u, in a fifth of the time: where the product is small beside what it is subtracted from.
 algebra::Vector rough_stiffness_times(const Problem& problem, const algebra::Vector& u);
-/// from −= K u, `precisely` or roughly. Vectors lie with the slices, or here where there are none.
+/// from −= K u, precisely (in extended precision) or with u.high in double precision. The vectors lie with the slices, or in this process where there are none.
 void take_stiffness_times(const Problem& problem, const algebra::LongField& u, bool precisely, algebra::Field& from);
 
 }  // namespace dotyk::problem

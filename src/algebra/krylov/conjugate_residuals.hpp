@@ -39,7 +39,7 @@ void conjugate_residuals(const Arrive& arrive, const Direct& direct) {
     const double left = rest.left.moduli();
     if (!std::isfinite(left)) break;
     if ((left <= rest.enough || directions.size() == kKept) && arrived()) return;
-    ResidualDirection d = direct(rest.left);  // may change it meanwhile
+    ResidualDirection d = direct(rest.left);  // changes rest.left meanwhile, and restores it
     const double whole = d.change.dot(d.change);
     for (const auto& [old, size] : directions) {
       const double share = d.change.dot(old.change) / size;

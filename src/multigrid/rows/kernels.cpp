@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <cstring>
 
-// Each block of L is read once. It serves its row, and by its transpose the rows above it. Rows of blocks are read as vectors of the compiler's, with lanes
+// Sweeps over some nodes have all blocks of their rows in place of L. Else each block of L is read once. It serves its row, and by its transpose the rows above it. Rows of blocks are read as vectors of the compiler's, with lanes
 // beyond a node's numbers. The results in these lanes go into padding, which is never read.
 namespace dotyk::multigrid {
 

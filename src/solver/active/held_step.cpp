@@ -82,8 +82,9 @@ class HeldStep final : public Step {
     return finite_ && tell(lambda, x);
   }
   void go_back(double part) override {
-    u_.go_back(before_, part);
-    near_u_ = near_before_ + static_cast<long double>(part) * (near_u_ - near_before_);
+    if (part == 0) u_ = before_, near_u_ = near_before_;  // what was added may be no number
+    else u_.go_back(before_, part), near_u_ = near_before_ + static_cast<long double>(part) * (near_u_ - near_before_);
+    finite_ = std::isfinite(u_.high.moduli());
     forget();
   }
   Vector recover() override { return u_.high.get(); }
@@ -93,17 +94,20 @@ class HeldStep final : public Step {
   enum class Known { no, roughly, precisely };
 
   void add(double factor, const Field& by, const Vector& near) {
-    u_.add(factor, by), near_u_ += (factor * near).cast<long double>();
+    u_.add(factor, by), near_u_ += static_cast<long double>(factor) * near.cast<long double>();
     finite_ = finite_ && near_u_.allFinite();
+  }
+  void add(double factor, const HeldStiffness::Displaced& by) {
+    finite_ = finite_ && by.found;
+    add(factor, by.u, by.near_u);
   }
   void forget() { known_ = false, elastic_known_ = Known::no; }
   /// The resistance is rounded as a product in double precision. Where the movement is at most a hundredth of u, this error is a hundredth of that of Ku, and
-  /// elastic forces still count as precise. Where springs hold rows that have no unknown of their own they do not: there great terms cancel.
+  /// elastic forces still count as precise. Elsewhere they become what the iterations say is left, which is as exact. Where springs hold rows that have no unknown of their own they do not: there great terms cancel.
   void move(HeldStiffness::Displaced by) {
     constexpr double kSmall = 0.01;
-    if (elastic_known_ == Known::precisely && by.told && (sprung_ || !(by.u.greatest() <= kSmall * u_.high.greatest()))) elastic_known_ = Known::roughly;
-    finite_ = finite_ && by.found;
-    add(1, by.u, by.near_u);
+    if (elastic_known_ == Known::precisely && by.found && by.told && (sprung_ || !(by.u.greatest() <= kSmall * u_.high.greatest()))) elastic_known_ = Known::roughly;
+    add(1, by);
     if (!by.told) return forget();
     known_ = false;
     elsewhere_.swap(by.left), near_elastic_ -= by.near_resistance;
@@ -113,7 +117,10 @@ class HeldStep final : public Step {
   void approach(double sum) {
     const double aim = std::min(1.0, unbalanced_ * gross_ / sum);
     const Vector& near = forces();
-    move(stiffness_.solve_in_basis(elsewhere_, near, std::max(HeldStiffness::kTolerance, kShare * aim)));
+    const Known known = std::exchange(elastic_known_, Known::no);  // where this throws, elsewhere_ has numbers near rows
+    HeldStiffness::Displaced by = stiffness_.solve_in_basis(elsewhere_, near, std::max(HeldStiffness::kTolerance, kShare * aim));
+    elastic_known_ = known;
+    move(std::move(by));
   }
   /// ‖·‖₁ of the forces that are left where u is not held.
   double left() {
@@ -229,7 +236,7 @@ class HeldStep final : public Step {
     if (by.told) lost = given, lost.add(-1, by.left);
     else {
       problem::take_stiffness_times(problem_, {by.u, stiffness_.field()}, false, lost);
-      lost.add(-2, lost);
+      lost.add(-2, lost);  // Ku: the product was taken off nothing, and −x − 2(−x) = x
       near = stiffness_.forces(lost.watched());
     }
     const Vector moved = stiffness_.jumps() * by.near_u;
@@ -271,6 +278,7 @@ class HeldStep final : public Step {
   /// Computes elastic forces by a product, unless they are known as exactly already.
   void know_elastic(Known how) {
     if (elastic_known_ >= how) return;
+    elastic_known_ = Known::no;
     elsewhere_ = f_;
     problem::take_stiffness_times(problem_, u_, how == Known::precisely, elsewhere_);
     near_elastic_ = stiffness_.forces(elsewhere_.watched());
@@ -290,9 +298,8 @@ class HeldStep final : public Step {
     for (int round = 0; round < kMostRounds && off(tied_gap()) > kAim && finite_; ++round) {
       approach_ties();
       const Vector near = forces();
-      const HeldStiffness::Displaced by = stiffness_.solve_in_basis(elsewhere_, near);
-      finite_ = finite_ && by.found;
-      add(1, by.u, by.near_u), forget();
+      elastic_known_ = Known::no;
+      add(1, stiffness_.solve_in_basis(elsewhere_, near)), forget();
     }
     return off(tied_gap()) <= kOff;
   }
@@ -307,9 +314,9 @@ class HeldStep final : public Step {
       Vector q = Vector::Zero(p.size());
       q(tied_) = Vector(stiffness_.jumps() * moved.near_u)(tied_);
       const double curvature = p.dot(q), t = energy / curvature;
-      if (!(curvature > 0)) return;
+      if (!(moved.found && curvature > 0)) return;
       lambda_ += t * p, gap -= t * q;
-      add(-t, moved.u, moved.near_u), forget();
+      add(-t, moved), forget();
       const Vector z = spring_.cwiseProduct(gap);
       const double before = std::exchange(energy, gap.dot(z));
       p = z + energy / before * p;
@@ -371,7 +378,7 @@ class HeldStep final : public Step {
   LongVector near_u_, near_before_;    ///< the same near rows
   bool finite_ = true;                 ///< is u_?
   Vector lambda_;
-  Field elsewhere_;                    ///< Tᵀ(f − Ku) but near rows, as far as it is known; zero near them
+  Field elsewhere_;                    ///< Tᵀ(f − Ku) at all unknowns that are not near rows, zero near them; meaningless where elastic_known_ is `no`
   Vector near_elastic_;                ///< the same near rows
   Known elastic_known_ = Known::no;
   Vector forces_;                      ///< near rows

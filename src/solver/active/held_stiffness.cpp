@@ -8,7 +8,6 @@
 #include "algebra/congruent.hpp"
 #include "algebra/dense/generalised_inverse.hpp"
 #include "algebra/entries_of.hpp"
-#include "base/parallel.hpp"
 #include "base/text.hpp"
 #include "multigrid/multigrid.hpp"
 #include "problem/coarser.hpp"
@@ -50,12 +49,14 @@ HeldStiffness::HeldStiffness(const Problem& problem, const RigidMotions& rigid, 
     : problem_(problem), basis_(problem::row_basis(problem)), unnoticed_(problem::unnoticed_displacements(problem, rigid)), rows_(basis_.times(problem.B)),
       fixing_(algebra::fixing_unknowns(unnoticed_)) {
   rows_.prune([](auto, auto, double value) { return std::abs(value) > 1e-14; });
-  const algebra::Triplets beside = assemble(make.takes_slices, rigid);
+  fix_noticed(rigid);
+  const algebra::Triplets beside = assemble(make.takes_slices);
   held_.assign(problem.unknowns(), 0);
   watched_ = held_;
   std::vector<char> may_be_held = held_;
   for (const int unknown : basis_.unknown)
     if (unknown >= 0) may_be_held[unknown] = 1;
+  for (const int unknown : fixing_noticed_) may_be_held[unknown] = 1;
   watch(may_be_held);
   take_near_rows();
   for (const int unknown : fixing_) change(unknown, unknown, lower().coeff(unknown, unknown));  // carries nothing
@@ -65,7 +66,7 @@ HeldStiffness::HeldStiffness(const Problem& problem, const RigidMotions& rigid, 
   told_ = std::move(first);
 }
 
-algebra::Triplets HeldStiffness::assemble(bool takes_slices, const RigidMotions& rigid) {
+algebra::Triplets HeldStiffness::assemble(bool takes_slices) {
   algebra::Triplets entries;  // of rows, and of the diagonal where K has no entry there: zeros in the pattern
   for (int r = 0; r < problem_.rows(); ++r)
     for (SparseRows::InnerIterator i(rows_, r); i; ++i)
@@ -75,7 +76,7 @@ algebra::Triplets HeldStiffness::assemble(bool takes_slices, const RigidMotions&
     if (a >= 0 && b >= 0) entries.emplace_back(std::max(a, b), std::min(a, b), 0.0);
   }
   if (takes_slices) slices_ = problem::slices(problem_);
-  if (slices_) return assemble_near_rows(entries, rigid);
+  if (slices_) return assemble_near_rows(entries);
   const bool alone = problem_.blocks.size() == 1;
   for (const problem::Block& block : problem_.blocks)
     for (int j = 0; j < block.size(); ++j)
@@ -92,13 +93,13 @@ algebra::Triplets HeldStiffness::assemble(bool takes_slices, const RigidMotions&
   return {};
 }
 
-std::vector<int> HeldStiffness::fixing_noticed(const RigidMotions& rigid) const {
-  if (rigid.noticed.cols() == 0) return {};
+void HeldStiffness::fix_noticed(const RigidMotions& rigid) {
+  if (rigid.noticed.cols() == 0) return;
   const SparseMatrix motions = problem::displacement(problem_, rigid.noticed);
-  return algebra::fixing_unknowns(basis_.trivial() ? motions : SparseMatrix(basis_.of_displacements(problem_) * motions));
+  fixing_noticed_ = algebra::fixing_unknowns(basis_.trivial() ? motions : SparseMatrix(basis_.of_displacements(problem_) * motions));
 }
 
-algebra::Triplets HeldStiffness::assemble_near_rows(const algebra::Triplets& room, const RigidMotions& rigid) {
+algebra::Triplets HeldStiffness::assemble_near_rows(const algebra::Triplets& room) {
   std::vector<char> of(static_cast<std::size_t>(problem_.unknowns()), 0);
   for (Eigen::Index j = 0; j < basis_.T.cols(); ++j) {  // of other columns TᵀKT has K's entries
     const SparseMatrix::InnerIterator first(basis_.T, j);
@@ -107,7 +108,7 @@ algebra::Triplets HeldStiffness::assemble_near_rows(const algebra::Triplets& roo
   const std::vector<char> changed = of;
   for (const auto& entry : room) of[entry.row()] = of[entry.col()] = 1;
   for (const int unknown : fixing_) of[unknown] = 1;
-  for (const int unknown : fixing_noticed(rigid)) of[unknown] = 1;
+  for (const int unknown : fixing_noticed_) of[unknown] = 1;
   StoredMatrix A = near_from_slices(of, 0);
   if (basis_.T.rows() > 0 && (basis_.T.diagonal().array() == 0).any()) {  // where an unknown does not move its own displacement, TᵀKT may be zero and K not
     StoredMatrix zeros = slices_->near(of);
@@ -199,6 +200,8 @@ algebra::Triplets HeldStiffness::numbers(const std::vector<Entry>& now) const {
 }
 
 bool HeldStiffness::factor(const Vector& spring, const std::vector<char>& held, const std::vector<Eigen::Triplet<double>>& added) {
+  for (std::size_t i = 0; i < held.size(); ++i)
+    if (held[i] && place_[i] < 0) throw std::logic_error("held stiffness: an unknown is held that is not near rows");
   watch(held);
   held_ = held;
   const double* K = lower().valuePtr();

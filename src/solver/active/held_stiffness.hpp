@@ -68,7 +68,8 @@ class HeldStiffness {
                 Nested* nested = nullptr);
 
   const problem::RowBasis& basis() const { return basis_; }
-  /// Unknowns that rows act on, those of rows, and what K couples to these: ascending. T is the identity elsewhere. Vectors of them alone are called near.
+  /// Unknowns that rows act on, those of rows, those that fixing_noticed() names, and what K couples to the latter two: ascending. T is the identity
+  /// elsewhere. Vectors of them alone are called near.
   const std::vector<int>& near_rows() const { return near_; }
   int place(int unknown) const { return place_[unknown]; }            ///< among them; −1: it is none
   const algebra::SparseRows& jumps() const { return jumps_; }         ///< B of near displacements
@@ -81,28 +82,28 @@ class HeldStiffness {
   algebra::Field field() const { return algebra::Field(vectors_); }
   /// Flags so many layers of neighbours in `of` as well, and returns a lower triangle that has at least the entries of TᵀKT in rows and columns of flagged unknowns.
   algebra::SymmetricMatrix near(std::vector<char>& of, int layers) const;
-  /// `spring`: s, force per displacement, rows; `held`: one flag an unknown of the basis; `added`: to the matrix, lower triangle, of the unknowns of
+  /// `spring`: s, force per displacement, rows; `held`: one flag an unknown of the basis, of those of rows and of fixing_noticed() alone; `added`: to the matrix, lower triangle, of the unknowns of
   /// rows of one point. False where the matrix is not positive definite.
   bool factor(const algebra::Vector& spring, const std::vector<char>& held, const std::vector<Eigen::Triplet<double>>& added = {});
   /// What forces displace.
   struct Displaced {
-    bool found = true;  ///< else a direct solver has given what is no number
-    bool told = false;  ///< the last two: by iterative solvers
+    bool found = true;                ///< else u has no meaning: the solver is direct, or the forces are no numbers
+    bool told = false;                ///< are `left` and `near_resistance` known? Iterative solvers tell what is left
     algebra::Field u;
-    algebra::Vector near_u;
-    algebra::Field left;              ///< what is left of the forces elsewhere, zero near rows
-    algebra::Vector near_resistance;  ///< TᵀKu
+    algebra::Vector near_u;           ///< u near rows
+    algebra::Field left;              ///< forces that are left, zero near rows
+    algebra::Vector near_resistance;  ///< TᵀKu near rows
   };
   /// u under the forces b, zero in what is held.
   algebra::Vector solve(const algebra::Vector& b) const;
-  /// The same for forces given as Tᵀb, near rows and in `elsewhere`, whose numbers near rows become those or zero where held. An iterative solver stops at a
-  /// residual of `tolerance` times their norm, and throws NotSolved if it cannot reach that.
+  /// The same for forces Tᵀb: `near` has those near rows, `elsewhere` all others. Afterwards `elsewhere` has those of `near` as well, zero where unknowns are
+  /// held. An iterative solver stops at a residual of `tolerance` times their norm, and throws SlowIterations where it cannot reach that.
   Displaced solve_in_basis(algebra::Field& elsewhere, algebra::Vector near, double tolerance = kTolerance) const;
   /// TᵀKT y at the unknowns that rows may hold; where y is zero but there, at all unknowns. Near vectors.
   algebra::Vector resistance_of_watched(const algebra::Vector& y) const;
 
   /// A few unknowns: where they are held, the bodies cannot move in a way that rows notice.
-  std::vector<int> fixing_noticed(const problem::RigidMotions& rigid) const;
+  const std::vector<int>& fixing_noticed() const { return fixing_noticed_; }
   /// u without the motions that no row notices: solve() gives none of them.
   algebra::Vector without_unnoticed(const algebra::Vector& u) const { return problem::least(unnoticed_, u); }
 
@@ -119,9 +120,10 @@ class HeldStiffness {
   /// The lower triangle of TᵀKT; where rows couple unknowns its pattern has places, with zeros if need be. Of slices, all entries of unknowns of rows.
   const algebra::SparseMatrix& lower() const { return lower_.lower(); }
   /// Returns SpdSystem::beside_slices.
-  algebra::Triplets assemble(bool takes_slices, const problem::RigidMotions& rigid);
+  algebra::Triplets assemble(bool takes_slices);
+  void fix_noticed(const problem::RigidMotions& rigid);
   /// assemble() for a K in slices. `room`: entries that the pattern must contain.
-  algebra::Triplets assemble_near_rows(const algebra::Triplets& room, const problem::RigidMotions& rigid);
+  algebra::Triplets assemble_near_rows(const algebra::Triplets& room);
   /// near() for a K in slices. Layers are layers of displacements, the first of which are those that the flagged unknowns move.
   algebra::StoredMatrix near_from_slices(std::vector<char>& of, int layers) const;
   void change(int row, int column, double by);
@@ -151,6 +153,7 @@ class HeldStiffness {
   algebra::SymmetricMatrix lower_;  ///< K itself where that has the room and T is the identity
   const algebra::SlicedMatrix* slices_ = nullptr;  ///< K; null: lower() is the whole
   std::vector<int> fixing_;         ///< unknowns that hold motions which no row notices
+  std::vector<int> fixing_noticed_;
   std::vector<Entry> changed_;      ///< of the next matrix, in no order
   std::vector<Entry> told_;         ///< of the solver's
   std::vector<char> held_, watched_;

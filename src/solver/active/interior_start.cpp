@@ -22,17 +22,17 @@ constexpr double kRigid = 1e-10;  ///< D of rigid rows, of the compliance that t
 
 /// Every row's law, and what counts as a force and as a displacement.
 struct LawsInUnits {
-  LawsInUnits(const Problem& problem, const problem::RigidMotions& rigid, HeldStiffness& stiffness);
+  LawsInUnits(const Problem& problem, HeldStiffness& stiffness);
 
   Vector f, low, high;
   Vector below, above;  ///< 1/k where λ < 0 and where λ > 0
   double force = 0, length = 0;  ///< scales of a row's multiplier and of displacements; 0: neither loaded nor pressed
 
  private:
-  void measure(const Problem& problem, const problem::RigidMotions& rigid, HeldStiffness& stiffness);
+  void measure(const Problem& problem, HeldStiffness& stiffness);
 };
 
-LawsInUnits::LawsInUnits(const Problem& problem, const problem::RigidMotions& rigid, HeldStiffness& stiffness) : f(problem.load()) {
+LawsInUnits::LawsInUnits(const Problem& problem, HeldStiffness& stiffness) : f(problem.load()) {
   low = high = below = above = Vector::Zero(problem.rows());
   const auto compliance = [](double stiffness) { return stiffness > 0 ? 1 / stiffness : 0; };
   for (const auto& [law, k, r] : problem.scalar_rows()) {
@@ -41,14 +41,14 @@ LawsInUnits::LawsInUnits(const Problem& problem, const problem::RigidMotions& ri
     low[r] = bounds.low, high[r] = bounds.high;
     below[r] = compliance(springs.below), above[r] = compliance(springs.above);
   }
-  measure(problem, rigid, stiffness);
+  measure(problem, stiffness);
 }
 
 /// Of the body as it bends where as few unknowns hold it as can: under its load, and under a force on each row that would move it by what rows are off.
-void LawsInUnits::measure(const Problem& problem, const problem::RigidMotions& rigid, HeldStiffness& stiffness) {
+void LawsInUnits::measure(const Problem& problem, HeldStiffness& stiffness) {
   const int rows = problem.rows();
   std::vector<char> held(problem.unknowns(), 0);
-  for (const int unknown : stiffness.fixing_noticed(rigid)) held[unknown] = 1;
+  for (const int unknown : stiffness.fixing_noticed()) held[unknown] = 1;
   if (rows == 0 || !stiffness.factor(Vector::Zero(rows), held)) return;
   const auto moved = [&](const Vector& forces) { return (problem.B * stiffness.solve(forces)).lpNorm<Eigen::Infinity>(); };
   const double bent = moved(f), compliance = moved(problem.B.transpose() * Vector::Ones(rows));
@@ -121,9 +121,9 @@ class InteriorBarrier final : public program::Barrier {
 
 }  // namespace
 
-InteriorPointState interior_start(const Problem& problem, const problem::RigidMotions& rigid, HeldStiffness& stiffness, double tol, Monitor& monitor) {
+InteriorPointState interior_start(const Problem& problem, HeldStiffness& stiffness, double tol, Monitor& monitor) {
   InteriorPointState out;
-  const LawsInUnits laws(problem, rigid, stiffness);
+  const LawsInUnits laws(problem, stiffness);
   if (!(laws.force > 0 && laws.length > 0)) return out;
   InteriorBarrier barrier(problem, laws, stiffness);
   for (barrier.evaluate(); out.iterations < kMostInteriorSteps && !barrier.done(tol) && !monitor.stop() && barrier.step(); barrier.evaluate()) ++out.iterations;

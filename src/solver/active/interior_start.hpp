@@ -17,6 +17,6 @@ struct InteriorPointState {
 ///   (K + BᵀD⁻¹B) du = …,   D = 1/k + z⁺/(high − λ) + z⁻/(λ − low),
 /// one sparse Cholesky factorisation; their number hardly grows with the mesh. `tol`: of μ against
 /// load and displacement. Throws nothing; what it gives is where to begin, no solution.
-InteriorPointState interior_start(const problem::Problem& problem, const problem::RigidMotions& rigid, HeldStiffness& stiffness, double tol, Monitor& monitor);
+InteriorPointState interior_start(const problem::Problem& problem, HeldStiffness& stiffness, double tol, Monitor& monitor);
 
 }  // namespace dotyk::solver

@@ -67,7 +67,7 @@ std::string by_barrier(SetIteration& it, End) {
 
 std::string by_interior_point(SetIteration& it, End) {
   it.monitor.phase("an interior point method");
-  const InteriorPointState s = interior_start(it.problem, it.rigid, it.stiffness(), kBeginning, it.monitor);
+  const InteriorPointState s = interior_start(it.problem, it.stiffness(), kBeginning, it.monitor);
   if (s.iterations == 0) return "";
   it.go_on_from(s.lambda, s.x, it.noise(s.lambda, s.x));
   return text(s.iterations, " steps of an interior point method");
