@@ -2,7 +2,9 @@
 
 #include "../support/meshes.hpp"
 #include "base/error.hpp"
+#include "mesh/decomposition.hpp"
 #include "mesh/second_order.hpp"
+#include "mesh/submesh.hpp"
 
 using namespace dotyk;
 
@@ -110,6 +112,21 @@ TEST_CASE("least Jacobians: twice the area, six times the volume, corners") {
   CHECK(mesh::least_jacobian(test::rectangle(mesh::Family::q1, 1, 1), 0) == 1);
   for (int c = 0; c < 6; ++c) CHECK(mesh::least_jacobian(test::box(mesh::Family::p1, 1, 1, 1), c) == 1);
   CHECK(mesh::least_jacobian(test::box(mesh::Family::q1, 1, 1, 1), 0) == 1);
+}
+
+TEST_CASE("grids, and what is made of their cells, are known to be in one piece; other meshes are not") {
+  for (mesh::Mesh m : all_elements()) {
+    CHECK(m.one_piece());
+    CHECK(mesh::pieces_of(m).count == 1);
+    const mesh::Mesh cut = mesh::cut_at_nodes(mesh::second_order(m));
+    CHECK(cut.one_piece());
+    CHECK(mesh::pieces_of(cut).count == 1);
+    const mesh::Submesh half = mesh::submesh(m, {0});
+    CHECK_FALSE(half.mesh.one_piece());
+    m.cells.insert(m.cells.end(), m.cell(0), m.cell(0) + m.topology().nodes);
+    CHECK_FALSE(m.one_piece());
+    CHECK_THROWS_WITH_AS(mesh::check(m, "gear"), doctest::Contains("have the same nodes"), InputError);
+  }
 }
 
 TEST_CASE("a node that belongs to no cell is refused with its number and place") {

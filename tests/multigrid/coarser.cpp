@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 
@@ -63,6 +64,34 @@ TEST_CASE("the matrix of the next coarser mesh is told") {
       CHECK(silent->iterations() - before[0] == telling->iterations() - before[1]);
     }
   }
+}
+
+TEST_CASE("vectors that lie with slices do what vectors here do") {
+  if (test::not_built()) return;
+  Nested nested;
+  algebra::SymmetricMatrix A;
+  const auto solver = nested.solver(&A);
+  REQUIRE(A.slices());
+  const auto unknowns = static_cast<int>(A.rows());
+  std::vector<int> watched;
+  for (int i = 3; i < unknowns; i += 7) watched.push_back(i);
+  Vector x(unknowns), y(unknowns);
+  for (int i = 0; i < unknowns; ++i) x[i] = std::sin(1.0 + i), y[i] = std::cos(3.0 * i);
+  const auto tried = [&](const std::shared_ptr<algebra::Vectors>& where) {
+    algebra::Field a(where), b(where);
+    a.put(x), b.put(y);
+    Vector told(3);
+    told << a.dot(b), a.moduli(), a.greatest();
+    a.add(0.5, b);
+    algebra::LongField sum{a, algebra::Field(where)};
+    const algebra::LongField before = sum;
+    sum.add(1e-9, b), sum.go_back(before, 0.25);
+    b.set_watched(a.watched());
+    return std::array{told, a.get(), b.get(), sum.high.get(), sum.low.get(), b.watched()};
+  };
+  const auto here = tried(algebra::vectors_here(unknowns, watched)), there = tried(A.slices()->vectors(watched));
+  CHECK((here[0] - there[0]).norm() <= 1e-14 * here[0].norm());  // sums in another order
+  for (std::size_t k = 1; k < here.size(); ++k) CHECK(here[k] == there[k]);
 }
 
 TEST_CASE("what slices tell is what their lower triangle says") {

@@ -64,6 +64,37 @@ TEST_CASE("the resistance that comes with a solution is the product with the sti
   }
 }
 
+TEST_CASE("a free body may be held far from its rows: where fixing_noticed() says") {
+  constexpr int kUnknowns = 30;
+  test::Random random(84);
+  Monitor quiet;
+  // A chain of springs, which moves freely by 1 + i at its unknown i, most at the end that is far from the row.
+  DenseMatrix K = DenseMatrix::Zero(kUnknowns, kUnknowns);
+  const auto of = [](int i) { return 1.0 / (1 + i); };
+  for (int i = 0; i + 1 < kUnknowns; ++i) {
+    Vector stretch = Vector::Zero(kUnknowns);
+    stretch[i] = -of(i), stretch[i + 1] = of(i + 1);
+    K += random.between(1, 2) * stretch * stretch.transpose();
+  }
+  DenseMatrix B = DenseMatrix::Zero(1, kUnknowns);
+  B(0, 0) = 1;
+  auto p = test::program(K, random.vector(kUnknowns), B, Vector::Zero(1));
+  p.groups = {test::group(problem::unilateral(), 0, 1)};
+  p.blocks[0].kernel = Vector::LinSpaced(kUnknowns, 1, kUnknowns);
+  solver::HeldStiffness stiffness(p, problem::rigid_motions(p), solver::incomplete_factor(), quiet);
+  REQUIRE(stiffness.fixing_noticed() == std::vector{kUnknowns - 1});
+  std::vector<char> held(kUnknowns, 0);
+  held.back() = 1;
+  REQUIRE(stiffness.factor(Vector::Zero(1), held));
+  Vector b = random.vector(kUnknowns);
+  const auto by = displaced(stiffness, b, 1e-14);
+  CHECK(by.u[kUnknowns - 1] == 0);
+  Vector expected = Vector::Zero(kUnknowns);
+  expected.head(kUnknowns - 1) = K.topLeftCorner(kUnknowns - 1, kUnknowns - 1).ldlt().solve(b.head(kUnknowns - 1));
+  CHECK((by.u - expected).norm() <= 1e-9 * expected.norm());  // the condition, below 1e5, times the tolerance
+  CHECK((by.resistance - K * by.u).norm() <= 1e-11 * b.norm());
+}
+
 TEST_CASE("where rows have one unknown each, of either sign, multigrid solves as a factor does") {
   if (test::not_built()) return;
   constexpr int kUnknowns = 20, kRows = 8;
