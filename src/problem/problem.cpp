@@ -193,7 +193,6 @@ Vector stiffness_times(const Problem& problem, const Vector& u) {
   all->take_product(moved, true, force);
   return -force.get();
 }
-LongVector precise_stiffness_times(const Problem& problem, const LongVector& u) { return times(problem, u); }
 Vector rough_stiffness_times(const Problem& problem, const Vector& u) { return times(problem, u); }
 
 void take_stiffness_times(const Problem& problem, const algebra::LongField& u, bool precisely, algebra::Field& from) {

@@ -130,12 +130,10 @@ const algebra::SlicedMatrix* slices(const Problem& problem);
 algebra::SparseMatrix lower_stiffness(const Problem& problem);
 /// The node of each unknown, ascending; blocks share none.
 std::vector<int> nodes(const Problem& problem);
-/// K u, block by block.
-algebra::Vector stiffness_times(const Problem& problem, const algebra::Vector& u);
-/// The same in extended precision. Forces of neighbouring cells are differences of terms that are greater by (size/cell)² in a solid, and by its
-/// square in a beam or a plate.
+/// K u, block by block, in extended precision, rounded at the end. Forces of neighbouring cells are differences of terms that are greater by (size/cell)² in
+/// a solid, and by its square in a beam or a plate.
 using algebra::LongVector;
-LongVector precise_stiffness_times(const Problem& problem, const LongVector& u);
+algebra::Vector stiffness_times(const Problem& problem, const algebra::Vector& u);
 /// The same in the precision of u, in a fifth of the time: where the product is small beside what it is subtracted from.
 algebra::Vector rough_stiffness_times(const Problem& problem, const algebra::Vector& u);
 /// from −= K u, precisely (in extended precision) or with u.high in double precision. The vectors lie with the slices, or in this process where there are none.

@@ -374,7 +374,7 @@ class HeldStep final : public Step {
   algebra::Triplets across_;
   std::vector<int> tied_;              ///< rigid rows that hold no unknown
   bool sprung_ = false;                ///< do springs hold rows that have no unknown of their own?
-  algebra::LongField u_, before_;      ///< of more digits than the factor's solutions have: see precise_stiffness_times()
+  algebra::LongField u_, before_;      ///< of more digits than the factor's solutions have: see stiffness_times()
   LongVector near_u_, near_before_;    ///< the same near rows
   bool finite_ = true;                 ///< is u_?
   Vector lambda_;

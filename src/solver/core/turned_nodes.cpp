@@ -132,11 +132,9 @@ void TurnedNodes::extend(Result& result) const {
   RowSubset::extend(result);
   problem::State& state = result.state;
   state.u = T_ * state.u + u0_;
-  problem::LongVector left = -problem::precise_stiffness_times(problem(), state.u.cast<long double>());
-  for (const Block& block : problem().blocks) left.segment(block.first, block.size()) += block.f.cast<long double>();
-  left -= (problem().B.transpose() * state.lambda).cast<long double>();
+  const Vector left = problem().load() - problem().B.transpose() * state.lambda - problem::stiffness_times(problem(), state.u);
   for (const Node& n : nodes_) {
-    const Vector forces = algebra::MinimumNorm(n.R).solve_transposed(left.segment(n.first, n.unknowns).cast<double>());
+    const Vector forces = algebra::MinimumNorm(n.R).solve_transposed(left.segment(n.first, n.unknowns));
     for (std::size_t i = 0; i < n.rows.size(); ++i) state.lambda[n.rows[i]] = forces[static_cast<Eigen::Index>(i)];
     for (auto& flags : result.active_sets)
       for (const int r : n.rows) flags[r] = 1;
