@@ -207,6 +207,16 @@ SparseMatrix block_diagonal(const std::vector<const SparseMatrix*>& blocks) {
   return all;
 }
 
+void with_columns(const SparseRows& rows, const std::vector<int>& place, SparseRows& out) {
+  out.resize(rows.rows(), std::ranges::count_if(place, [](int p) { return p >= 0; }));
+  out.resizeNonZeros(rows.nonZeros());
+  std::copy_n(rows.outerIndexPtr(), rows.rows() + 1, out.outerIndexPtr());
+  parallel_parts(rows.nonZeros(), [&](int first, int end) {
+    std::copy(rows.valuePtr() + first, rows.valuePtr() + end, out.valuePtr() + first);
+    std::transform(rows.innerIndexPtr() + first, rows.innerIndexPtr() + end, out.innerIndexPtr() + first, [&](int column) { return place[column]; });
+  });
+}
+
 SparseMatrix part_of(const SparseMatrix& from, const std::vector<int>& place, const std::vector<int>& columns) {
   const auto count = static_cast<Eigen::Index>(columns.size());
   const int rows = place.empty() ? 0 : *std::ranges::max_element(place) + 1;

@@ -13,6 +13,9 @@ SparseMatrix lower_sum(const SparseMatrix& A, const SparseMatrix& B);
 /// The matrix with these square blocks on its diagonal, in their order. They are compressed.
 SparseMatrix block_diagonal(const std::vector<const SparseMatrix*>& blocks);
 
+/// The same rows, compressed, with other numbers of columns. `place`: of each column with entries its new number, ascending; −1 of others.
+void with_columns(const SparseRows& rows, const std::vector<int>& place, SparseRows& out);
+
 /// Some columns of a matrix, ascending. `place`: of each row its number among those of the part, ascending; −1: it is left out.
 SparseMatrix part_of(const SparseMatrix& from, const std::vector<int>& place, const std::vector<int>& columns);
 

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
+#include <limits>
 #include <map>
 #include <utility>
 #include <vector>
@@ -33,7 +35,7 @@ struct VectorOrder {
 class VectorParts {
  public:
   /// `watched`: places, in the order in which watched() tells them. `threads`: on all cores, else on one.
-  VectorParts(std::ptrdiff_t size, std::vector<int> watched, bool threads) : size_(size), watched_(std::move(watched)), threads_(threads ? threads_for(size, kFew) : 1) {}
+  VectorParts(std::ptrdiff_t size, std::vector<int> watched, bool threads) : size_(size), watched_(std::move(watched)), few_(threads ? 100'000 : std::numeric_limits<int>::max()) {}
 
   std::vector<double>& operator[](int v) { return vectors_.at(v); }
   /// What the order tells, of this part; else 0.
@@ -61,9 +63,9 @@ class VectorParts {
           for (int i = first; i < end; ++i) split(sum(c[i], d[i]) + factor * (sum(a[i], b[i]) - sum(c[i], d[i])), a[i], b[i]);
         });
         break;
-      case Op::dot: return gathered(false, [&](int first, int end) { return part(a, first, end).dot(part(b, first, end)); });
-      case Op::moduli: return gathered(false, [&](int first, int end) { return part(a, first, end).template lpNorm<1>(); });
-      case Op::greatest: return gathered(true, [&](int first, int end) { return part(a, first, end).template lpNorm<Eigen::Infinity>(); });
+      case Op::dot: return parallel_sum(size_, few_, [&](int first, int end) { return part(a, first, end).dot(part(b, first, end)); });
+      case Op::moduli: return parallel_sum(size_, few_, [&](int first, int end) { return part(a, first, end).template lpNorm<1>(); });
+      case Op::greatest: return parallel_sum(size_, few_, [&](int first, int end) { return Greatest{size_ > 0 ? part(a, first, end).template lpNorm<Eigen::Infinity>() : 0}; }).of_all;
     }
     return 0;
   }
@@ -79,7 +81,10 @@ class VectorParts {
   }
 
  private:
-  static constexpr std::ptrdiff_t kFew = 100'000;  // numbers, for a thread
+  struct Greatest {
+    double of_all = 0;
+    void operator+=(const Greatest& other) { of_all = std::max(of_all, other.of_all); }
+  };
 
   static long double sum(double high, double low) { return static_cast<long double>(high) + low; }
   static void split(long double sum, double& high, double& low) {
@@ -89,21 +94,12 @@ class VectorParts {
   /// Calls work(first, end) for ranges.
   template <class Work>
   void each(const Work& work) const {
-    parallel_ranges(static_cast<int>(size_), threads_, [&](int, int first, int end) { work(first, end); });
-  }
-  /// The sum, or the greatest, of what term(first, end) gives for ranges.
-  template <class Term>
-  double gathered(bool greatest, const Term& term) const {
-    std::vector<double> parts(static_cast<std::size_t>(threads_), 0.0);
-    parallel_ranges(static_cast<int>(size_), threads_, [&](int k, int first, int end) { parts[k] = end > first ? term(first, end) : 0; });
-    double all = 0;
-    for (const double part : parts) all = greatest ? std::max(all, part) : all + part;
-    return all;
+    parallel_ranges(static_cast<int>(size_), threads_for(size_, few_), [&](int, int first, int end) { work(first, end); });
   }
 
   std::ptrdiff_t size_;
   std::vector<int> watched_;
-  int threads_;
+  std::int64_t few_;  ///< numbers for a thread
   std::map<int, std::vector<double>> vectors_;
 };
 

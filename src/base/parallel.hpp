@@ -10,6 +10,7 @@
 #include <mutex>
 #include <system_error>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace dotyk {
@@ -73,6 +74,17 @@ template <class Work>
 void parallel_parts(std::ptrdiff_t count, const Work& work) {
   constexpr std::int64_t kFew = 100'000;
   parallel_ranges(static_cast<int>(count), threads_for(count, kFew), [&](int, int first, int end) { work(first, end); });
+}
+
+/// The sum of what term(first, end) gives for ranges of the numbers 0 … count − 1, on all cores; a thread has at least `few` of them. The last digit depends on
+/// the number of threads.
+template <class Term>
+auto parallel_sum(std::ptrdiff_t count, std::int64_t few, const Term& term) {
+  std::vector<decltype(term(0, 0))> parts(static_cast<std::size_t>(threads_for(count, few)));
+  parallel_ranges(static_cast<int>(count), static_cast<int>(parts.size()), [&](int k, int first, int end) { parts[k] = term(first, end); });
+  auto sum = std::move(parts[0]);
+  for (std::size_t k = 1; k < parts.size(); ++k) sum += parts[k];
+  return sum;
 }
 
 }  // namespace dotyk

@@ -43,16 +43,18 @@ struct Volumes {
   Vector lumped;          ///< of the cells, shared out to their nodes, in units of the whole; one entry a node
   double dilated = 0;     ///< Σ volume c_iijj of the cells that are free
   std::vector<int> held;  ///< the other cells
+
+  void operator+=(const Volumes& other) {
+    lumped += other.lumped, dilated += other.dilated;
+    held.insert(held.end(), other.held.begin(), other.held.end());
+  }
 };
 
-/// The last digit depends on the number of threads.
 Volumes volumes(const mesh::Mesh& mesh, const MaterialField& material, const Numbering& numbering) {
   constexpr int kFew = 100'000;  // cells, for a thread
   const double size = mesh.size();
-  std::vector<Volumes> parts(static_cast<std::size_t>(threads_for(mesh.cell_count(), kFew)));
-  parallel_ranges(mesh.cell_count(), static_cast<int>(parts.size()), [&](int k, int first, int end) {
-    Volumes& part = parts[k];
-    part.lumped = Vector::Zero(mesh.node_count());
+  Volumes out = parallel_sum(mesh.cell_count(), kFew, [&](int first, int end) {
+    Volumes part{Vector::Zero(mesh.node_count()), 0, {}};
     dispatch(mesh.element, [&]<class E>() {
       double x[E::nodes][E::dim], bulk = 0;
       for (int c = first; c < end; ++c) {
@@ -74,15 +76,11 @@ Volumes volumes(const mesh::Mesh& mesh, const MaterialField& material, const Num
         for (int q = 0; q < E::points; ++q) part.dilated += E::weight(q) * volume * bulk;
       }
     });
+    return part;
   });
-  Volumes& out = parts[0];
-  for (std::size_t k = 1; k < parts.size(); ++k) {
-    out.lumped += parts[k].lumped, out.dilated += parts[k].dilated;
-    out.held.insert(out.held.end(), parts[k].held.begin(), parts[k].held.end());
-  }
   out.lumped /= out.lumped.sum();
   out.dilated *= std::pow(size, mesh.dimension());
-  return std::move(out);
+  return out;
 }
 
 /// Component i at a point of the rigid motions of the frame, 3 or 6, and of a dilatation.
@@ -95,15 +93,14 @@ Row<d> row(const RigidFrame& frame, const double* x, int i) {
   return out;
 }
 
-/// UᵀMU of those motions and, after them, those in the kernel. The last digit depends on the number of threads.
+/// UᵀMU of those motions and, after them, those in the kernel.
 template <int d>
 DenseMatrix gram(const mesh::Mesh& mesh, const Numbering& numbering, const RigidFrame& frame, const Vector& lumped, const DenseMatrix& kernel) {
   constexpr int count = Row<d>::ColsAtCompileTime;
   const Eigen::Index fixed = kernel.cols();
-  std::vector<DenseMatrix> sums(static_cast<std::size_t>(threads_for(mesh.node_count(), kFewNodes)), DenseMatrix::Zero(count + fixed, count + fixed));
-  parallel_ranges(mesh.node_count(), static_cast<int>(sums.size()), [&](int thread, int first, int end) {
+  return parallel_sum(mesh.node_count(), kFewNodes, [&](int first, int end) {
     Eigen::Matrix<double, count, count> own = Eigen::Matrix<double, count, count>::Zero();
-    DenseMatrix& sum = sums[thread];
+    DenseMatrix sum = DenseMatrix::Zero(count + fixed, count + fixed);
     for (int node = first; node < end; ++node)
       for (int i = 0; i < d; ++i) {
         const int unknown = numbering.unknown[static_cast<std::size_t>(node) * d + i];
@@ -116,9 +113,16 @@ DenseMatrix gram(const mesh::Mesh& mesh, const Numbering& numbering, const Rigid
       }
     sum.topLeftCorner(count, count) = own;
     sum.topRightCorner(count, fixed) = sum.bottomLeftCorner(fixed, count).transpose();
+    return sum;
   });
-  for (std::size_t k = 1; k < sums.size(); ++k) sums[0] += sums[k];
-  return std::move(sums[0]);
+}
+
+/// Of gram(): that of the first motions, without their part in the kernel.
+DenseMatrix without_kernel(const DenseMatrix& gram, Eigen::Index count, Eigen::Index fixed) {
+  const DenseMatrix all = gram.topLeftCorner(count, count);
+  if (fixed == 0) return all;
+  const DenseMatrix in_kernel = algebra::Ldlt(gram.bottomRightCorner(fixed, fixed)).solve(DenseMatrix(gram.bottomLeftCorner(fixed, count)));
+  return all - algebra::product(gram.topRightCorner(count, fixed), in_kernel);
 }
 
 /// The combinations of vectors, given by their Gram matrix, that are orthonormal; none of those whose square is less than `least`.
@@ -155,20 +159,18 @@ struct Motions {
   auto rigid() const { return F.leftCols(frame.count()); }
   auto dilatation() const { return F.rightCols(1); }
 
-  /// UᵀMV, some rows at a time, so that no other matrix of this size is needed. The last digit depends on the number of threads.
+  /// UᵀMV, some rows at a time, so that no other matrix of this size is needed.
   DenseMatrix inner(const Displacements& U, const Displacements& V) const {
     constexpr int kRows = 1000, kFew = 100'000;  // rows for a thread
-    const int rows = static_cast<int>(U.rows()), threads = threads_for(rows, kFew);
-    std::vector<DenseMatrix> sums(static_cast<std::size_t>(threads), DenseMatrix::Zero(U.cols(), V.cols()));
-    parallel_ranges(rows, threads, [&](int thread, int begin, int end) {
+    return parallel_sum(U.rows(), kFew, [&](int begin, int end) {
+      DenseMatrix sum = DenseMatrix::Zero(U.cols(), V.cols());
       for (int first = begin; first < end; first += kRows) {
         const int count = std::min(kRows, end - first);
         const ByRows weighted = w.segment(first, count).asDiagonal() * V.middleRows(first, count);
-        sums[thread] += U.middleRows(first, count).transpose() * weighted;
+        sum += U.middleRows(first, count).transpose() * weighted;
       }
+      return sum;
     });
-    for (int k = 1; k < threads; ++k) sums[0] += sums[k];
-    return sums[0];
   }
   /// The coefficients of the M-orthogonal projection of u onto the kernel.
   DenseMatrix in_kernel(const Displacements& kernel, const Displacements& u) const {
@@ -194,7 +196,7 @@ struct Motions {
   }
 };
 
-/// FᵀKF, F as row() says. Rigid motions do no work in a cell that is free, and a dilatation strains such a cell uniformly: Volumes::dilated is its energy. Only
+/// FᵀKF, where F has the motions of row(). Rigid motions do no work in a cell that is free, and a dilatation strains such a cell uniformly: Volumes::dilated is its energy. Only
 /// cells with prescribed components, where F is zero, need their stiffness. Of curved or distorted cells the volume is approximate.
 template <class E>
 DenseMatrix energies(const mesh::Mesh& mesh, const MaterialField& material, const std::vector<FacetSpring>& springs, const Numbering& numbering, const RigidFrame& frame,
@@ -205,9 +207,8 @@ DenseMatrix energies(const mesh::Mesh& mesh, const MaterialField& material, cons
   };
   using Square = Eigen::Matrix<double, count, count>;
   constexpr int kFewCells = 2'000;  // for a thread
-  const int cells = static_cast<int>(volumes.held.size());
-  std::vector<Square> sums(static_cast<std::size_t>(threads_for(cells, kFewCells)), Square::Zero());
-  parallel_ranges(cells, static_cast<int>(sums.size()), [&](int thread, int first, int end) {
+  Square sum = parallel_sum(std::ssize(volumes.held), kFewCells, [&](int first, int end) {
+    Square of_cells = Square::Zero();
     double x[E::nodes][d], k[E::nodes][E::nodes][d][d];
     for (int h = first; h < end; ++h) {
       const int* n = mesh.cell(volumes.held[h]);
@@ -221,11 +222,10 @@ DenseMatrix energies(const mesh::Mesh& mesh, const MaterialField& material, cons
           for (int b = 0; b <= a; ++b)
             for (int j = 0; j < d; ++j) whole(a * d + i, b * d + j) = whole(b * d + j, a * d + i) = k[a][b][i][j];
         }
-      sums[thread] += F.transpose().lazyProduct(whole.lazyProduct(F).eval());
+      of_cells += F.transpose().lazyProduct(whole.lazyProduct(F).eval());
     }
+    return of_cells;
   });
-  Square& sum = sums[0];
-  for (std::size_t t = 1; t < sums.size(); ++t) sum += sums[t];
   sum(count - 1, count - 1) += volumes.dilated / (frame.size * frame.size);
   for (const FacetSpring& spring : springs)
     for_each_facet_point(mesh, spring.facet, [&](const FacetPoint& p) {
@@ -299,10 +299,7 @@ WeakMotions weak_motions(const mesh::Mesh& mesh, const MaterialField& material, 
     G = gram<Element::dim>(mesh, numbering, frame, volumes.lumped, kernel);
     E = energies<Element>(mesh, material, springs, numbering, frame, volumes);
   });
-  const Eigen::Index fixed = kernel.cols();
-  DenseMatrix rigid = G.topLeftCorner(all, all);  // less what is in the kernel
-  if (fixed > 0) rigid -= algebra::product(G.topRightCorner(all, fixed), algebra::Ldlt(G.bottomRightCorner(fixed, fixed)).solve(DenseMatrix(G.bottomLeftCorner(fixed, all))));
-  const DenseMatrix T = orthonormal_combinations(rigid, 1e-12);  // less nothing on these unknowns
+  const DenseMatrix T = orthonormal_combinations(without_kernel(G, all, kernel.cols()), 1e-12);  // less nothing on these unknowns
   if (T.cols() == 0) return {};
   const algebra::Eigenpairs trial = algebra::eigenpairs(algebra::product(T.transpose(), algebra::product(E.topLeftCorner(all, all), T)));
   const double own = E(all, all) / G(all, all);

@@ -37,7 +37,7 @@ struct Mesh {
   std::map<std::string, std::vector<Facet>> parts;
   std::shared_ptr<const Coarser> coarser = nullptr;  ///< where it is known
   /// Sizes of `coordinates` and `cells` as a grid, or what keeps its cells together (order 2, cutting), made them. While they are these, the mesh is in one piece
-  /// (see pieces_of), with no cell twice and no node without a cell; nodes may have moved. Who exchanges cells clears it.
+  /// (see pieces_of), with no cell twice and no node without a cell; nodes may have moved. Code that exchanges cells must clear it.
   std::array<std::size_t, 2> generated{};
   bool one_piece() const { return generated == std::array{coordinates.size(), cells.size()} && !cells.empty(); }
 

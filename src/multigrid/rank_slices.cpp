@@ -1,7 +1,6 @@
 #include "multigrid/rank_slices.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <limits>
 #include <mutex>

@@ -12,7 +12,7 @@ using algebra::Vector;
 using algebra::VectorOrder;
 using algebra::VectorParts;
 
-/// Of all ranks together. Collective.
+/// Runs an order on each rank's part; what it tells is that of all parts together. Collective.
 double run_together(const Ranks& ranks, const VectorOrder& order, VectorParts& own) {
   const double told = own.run(order);
   switch (order.op) {

@@ -16,7 +16,7 @@ using Assemble = algebra::StoredMatrix (*)(Lists lists);
 /// Calls visit(i, j) for pairs, some of them several times. It is called twice and gives the same pairs.
 using EachPair = std::function<void(const std::function<void(int, int)>& visit)>;
 
-/// What unknowns are shared out by among the ranks.
+/// What decides which rank gets which unknowns.
 struct Coupling {
   const std::vector<int>& node;                    ///< of each unknown, ascending, as in Matrix
   const std::vector<algebra::SparseRows>& coarse;  ///< as in Matrix; none: there is no coarser mesh

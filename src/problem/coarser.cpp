@@ -35,18 +35,6 @@ std::vector<int> places(const SparseRows& functions) {
   return place;
 }
 
-/// The columns that have a place alone: all that have entries.
-std::shared_ptr<const SparseRows> with_columns(const SparseRows& functions, const std::vector<int>& place) {
-  const auto some = std::make_shared<SparseRows>(functions.rows(), std::ranges::count_if(place, [](int p) { return p >= 0; }));
-  some->resizeNonZeros(functions.nonZeros());
-  std::copy_n(functions.outerIndexPtr(), functions.rows() + 1, some->outerIndexPtr());
-  parallel_parts(functions.nonZeros(), [&](int first, int end) {
-    std::copy(functions.valuePtr() + first, functions.valuePtr() + end, some->valuePtr() + first);
-    std::transform(functions.innerIndexPtr() + first, functions.innerIndexPtr() + end, some->innerIndexPtr() + first, [&](int column) { return place[column]; });
-  });
-  return some;
-}
-
 SparseRows with_rows(const SparseRows& functions, const std::vector<int>& place) {
   std::vector<int> rows;
   for (std::size_t i = 0; i < place.size(); ++i)
@@ -62,7 +50,9 @@ struct CoarserBlock {
 /// The block without its K. `all`: the functions of all coarser meshes.
 CoarserBlock coarser(const Block& fine, std::vector<SparseRows> all) {
   const std::vector<int> place = places(all[0]);
-  CoarserBlock out{{}, with_columns(all[0], place)};
+  const auto P = std::make_shared<SparseRows>();  // Eigen's matrices have no move
+  algebra::with_columns(all[0], place, *P);
+  CoarserBlock out{{}, P};
   const SparseRows& functions = *out.functions;
   if (all.size() > 1) all[1] = with_rows(all[1], place);
   Block& block = out.block;

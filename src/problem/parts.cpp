@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "algebra/dense/generalised_inverse.hpp"
 #include "algebra/dense/null_space.hpp"
@@ -60,10 +59,7 @@ bool any_loaded(const std::vector<Sizes>& parts) {
 
 double dot(const Eigen::Ref<const Vector>& a, const Eigen::Ref<const Vector>& b) {
   constexpr int kFew = 100'000;  // numbers, for a thread
-  const int size = static_cast<int>(a.size());
-  std::vector<double> sums(static_cast<std::size_t>(threads_for(size, kFew)), 0.0);
-  parallel_ranges(size, static_cast<int>(sums.size()), [&](int k, int first, int end) { sums[k] = a.segment(first, end - first).dot(b.segment(first, end - first)); });
-  return std::accumulate(sums.begin(), sums.end(), 0.0);
+  return parallel_sum(a.size(), kFew, [&](int first, int end) { return a.segment(first, end - first).dot(b.segment(first, end - first)); });
 }
 
 void add(double& norm, const Eigen::Ref<const Vector>& v) {

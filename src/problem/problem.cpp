@@ -13,6 +13,7 @@
 
 namespace dotyk::problem {
 
+using algebra::LongVector;
 using algebra::SparseMatrix;
 using algebra::SparseRows;
 using algebra::Vector;
@@ -185,12 +186,11 @@ Numbers times(const Problem& problem, const Numbers& u) {
 
 Vector stiffness_times(const Problem& problem, const Vector& u) {
   const auto* all = slices(problem);
-  if (!all) return times<LongVector>(problem, u.cast<long double>()).cast<double>();
-  const auto vectors = all->vectors({});
+  const auto vectors = all ? all->vectors({}) : algebra::vectors_here(problem.unknowns(), {});
   algebra::LongField moved{algebra::Field(vectors), algebra::Field(vectors)};
   algebra::Field force(vectors);
   moved.high.put(u);
-  all->take_product(moved, true, force);
+  take_stiffness_times(problem, moved, true, force);
   return -force.get();
 }
 Vector rough_stiffness_times(const Problem& problem, const Vector& u) { return times(problem, u); }

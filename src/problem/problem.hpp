@@ -132,7 +132,6 @@ algebra::SparseMatrix lower_stiffness(const Problem& problem);
 std::vector<int> nodes(const Problem& problem);
 /// K u, block by block, in extended precision, rounded at the end. Forces of neighbouring cells are differences of terms that are greater by (size/cell)² in
 /// a solid, and by its square in a beam or a plate.
-using algebra::LongVector;
 algebra::Vector stiffness_times(const Problem& problem, const algebra::Vector& u);
 /// The same in the precision of u, in a fifth of the time: where the product is small beside what it is subtracted from.
 algebra::Vector rough_stiffness_times(const Problem& problem, const algebra::Vector& u);

@@ -153,6 +153,12 @@ class Elimination {
 
 RowBasis row_basis(const Problem& problem) { return Elimination(problem)(); }
 
+algebra::StoredMatrix RowBasis::with_signs(algebra::StoredMatrix lower) const {
+  for (Eigen::Index j = 0; j < lower.cols() && !trivial(); ++j)
+    for (SparseMatrix::InnerIterator it(lower, j); it; ++it) it.valueRef() *= signs[it.row()] * signs[j];
+  return lower;
+}
+
 SparseRows RowBasis::times(const SparseRows& R) const {
   if (!of_signs()) return R * T;
   SparseRows product = R;

@@ -19,6 +19,8 @@ struct RowBasis {
   /// The displacements T u', and the forces Tᵀ f in this basis.
   algebra::Vector displacements(algebra::Vector u) const { return of_signs() ? with_signs(std::move(u)) : T * u; }
   algebra::Vector forces(algebra::Vector f) const { return of_signs() ? with_signs(std::move(f)) : T.transpose() * f; }
+  /// For a T of signs: TᵀKT of a lower triangle K, or K of TᵀKT.
+  algebra::StoredMatrix with_signs(algebra::StoredMatrix lower) const;
   /// R T: the rows R, which act on displacements, as rows that act on the unknowns u'.
   algebra::SparseRows times(const algebra::SparseRows& R) const;
   /// S = T⁻¹: u' = S u.

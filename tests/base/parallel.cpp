@@ -33,6 +33,18 @@ TEST_CASE("ranges are of like length, follow one another and leave nothing out")
     }
 }
 
+TEST_CASE("the sum of ranges is that of all numbers, however many threads there are") {
+  for (const int count : {0, 1, 10, 1000})
+    for (const int few : {1, 7, 2000}) {
+      const auto sum = [](int first, int end) {
+        std::string all;
+        for (int k = first; k < end; ++k) all += std::to_string(k) + " ";
+        return all;
+      };
+      CHECK(parallel_sum(count, few, sum) == sum(0, count));  // in their order
+    }
+}
+
 TEST_CASE("threads work side by side where there are cores") {
   if (cores() < 2) return;
   // Two calls that wait for each other end only if both are under way at once.

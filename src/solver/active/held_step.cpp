@@ -15,7 +15,8 @@ namespace {
 using algebra::Field;
 using algebra::SparseRows;
 using algebra::Vector;
-using problem::LongVector, problem::Problem;
+using algebra::LongVector;
+using problem::Problem;
 
 /// Spring of a rigid row that holds no unknown, in units of the stiffness that it sees: most of its force then comes with the first solution, while rounding
 /// of displacements, times the spring, stays small in it.
@@ -42,7 +43,7 @@ class HeldStep final : public Step {
  public:
   HeldStep(const Problem& problem, HeldStiffness& stiffness, const Vector& rho, double tol)
       : problem_(problem), stiffness_(stiffness), rho_(rho), least_(std::max(kUnbalanced, stiffness.solver().iterates() ? kOfTolerance * tol : 0)), own_(problem.row_stiffness()),
-        basis_(stiffness.basis()), T_(stiffness.transformation().cast<long double>()), f_(stiffness.field()), u_{stiffness.field(), stiffness.field()}, before_(u_),
+        basis_(stiffness.basis()), T_(stiffness.near_basis().T.cast<long double>()), f_(stiffness.field()), u_{stiffness.field(), stiffness.field()}, before_(u_),
         near_u_(LongVector::Zero(std::ssize(stiffness.near_rows()))), near_before_(near_u_), elsewhere_(stiffness.field()) {
     f_.put(problem.load());
     of_loads_ = f_.moduli();
@@ -116,11 +117,16 @@ class HeldStep final : public Step {
   /// Solves for the forces that are left. Of them may remain kShare of what refinement aims at, and at most kShare of themselves. `sum`: left().
   void approach(double sum) {
     const double aim = std::min(1.0, unbalanced_ * gross_ / sum);
-    const Vector& near = forces();
-    const Known known = std::exchange(elastic_known_, Known::no);  // where this throws, elsewhere_ has numbers near rows
-    HeldStiffness::Displaced by = stiffness_.solve_in_basis(elsewhere_, near, std::max(HeldStiffness::kTolerance, kShare * aim));
+    const Known known = elastic_known_;
+    HeldStiffness::Displaced by = displaced(std::max(HeldStiffness::kTolerance, kShare * aim));
     elastic_known_ = known;
     move(std::move(by));
+  }
+  /// By the forces that are left, which are not known afterwards: elsewhere_ then has numbers near rows.
+  HeldStiffness::Displaced displaced(double tolerance = HeldStiffness::kTolerance) {
+    const Vector& near = forces();
+    elastic_known_ = Known::no;
+    return stiffness_.solve_in_basis(elsewhere_, near, tolerance);
   }
   /// ‖·‖₁ of the forces that are left where u is not held.
   double left() {
@@ -161,7 +167,7 @@ class HeldStep final : public Step {
     }
     known_ = false;
     if (moved.isZero(0)) return;
-    if (basis_.of_signs()) near_u_ += stiffness_.displacements(moved).cast<long double>();
+    if (basis_.of_signs()) near_u_ += stiffness_.near_basis().displacements(moved).cast<long double>();
     else near_u_ += T_ * moved.cast<long double>();
     const Vector high = near_u_.cast<double>();
     u_.high.set_watched(high), u_.low.set_watched((near_u_ - high.cast<long double>()).cast<double>());
@@ -237,7 +243,7 @@ class HeldStep final : public Step {
     else {
       problem::take_stiffness_times(problem_, {by.u, stiffness_.field()}, false, lost);
       lost.add(-2, lost);  // Ku: the product was taken off nothing, and −x − 2(−x) = x
-      near = stiffness_.forces(lost.watched());
+      near = stiffness_.near_basis().forces(lost.watched());
     }
     const Vector moved = stiffness_.jumps() * by.near_u;
     near += stiffness_.rows().transpose() * spring_.cwiseProduct(moved);
@@ -281,7 +287,7 @@ class HeldStep final : public Step {
     elastic_known_ = Known::no;
     elsewhere_ = f_;
     problem::take_stiffness_times(problem_, u_, how == Known::precisely, elsewhere_);
-    near_elastic_ = stiffness_.forces(elsewhere_.watched());
+    near_elastic_ = stiffness_.near_basis().forces(elsewhere_.watched());
     elsewhere_.set_watched(Vector::Zero(near_elastic_.size()));
     elastic_known_ = how;
   }
@@ -297,9 +303,7 @@ class HeldStep final : public Step {
   bool tie() {
     for (int round = 0; round < kMostRounds && off(tied_gap()) > kAim && finite_; ++round) {
       approach_ties();
-      const Vector near = forces();
-      elastic_known_ = Known::no;
-      add(1, stiffness_.solve_in_basis(elsewhere_, near)), forget();
+      add(1, displaced()), forget();
     }
     return off(tied_gap()) <= kOff;
   }

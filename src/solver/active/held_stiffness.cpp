@@ -9,8 +9,6 @@
 #include "algebra/dense/generalised_inverse.hpp"
 #include "algebra/entries_of.hpp"
 #include "base/text.hpp"
-#include "multigrid/multigrid.hpp"
-#include "problem/coarser.hpp"
 
 namespace dotyk::solver {
 
@@ -36,13 +34,6 @@ bool has_room(const SparseMatrix& matrix, const algebra::Triplets& entries) {
   return matrix.isCompressed() && std::ranges::all_of(entries, [&](const auto& e) { return place_of(matrix, e.row(), e.col()) >= 0; });
 }
 
-/// TᵀKT of a lower triangle and a T of signs, or K of TᵀKT.
-StoredMatrix with_signs(StoredMatrix lower, const problem::RowBasis& basis) {
-  for (Eigen::Index j = 0; j < lower.cols() && !basis.trivial(); ++j)
-    for (SparseMatrix::InnerIterator it(lower, j); it; ++it) it.valueRef() *= basis.signs[it.row()] * basis.signs[j];
-  return lower;
-}
-
 }  // namespace
 
 HeldStiffness::HeldStiffness(const Problem& problem, const RigidMotions& rigid, const MakeSpdSolver& make, Monitor& monitor, Nested* nested)
@@ -52,12 +43,7 @@ HeldStiffness::HeldStiffness(const Problem& problem, const RigidMotions& rigid, 
   fix_noticed(rigid);
   const algebra::Triplets beside = assemble(make.takes_slices);
   held_.assign(problem.unknowns(), 0);
-  watched_ = held_;
-  std::vector<char> may_be_held = held_;
-  for (const int unknown : basis_.unknown)
-    if (unknown >= 0) may_be_held[unknown] = 1;
-  for (const int unknown : fixing_noticed_) may_be_held[unknown] = 1;
-  watch(may_be_held);
+  watch();
   take_near_rows();
   for (const int unknown : fixing_) change(unknown, unknown, lower().coeff(unknown, unknown));  // carries nothing
   if (rigid.noticed.cols() > 0) spring_rows(problem.row_stiffness());
@@ -89,7 +75,7 @@ algebra::Triplets HeldStiffness::assemble(bool takes_slices) {
   StoredMatrix A;
   A = basis_.of_signs() ? K : algebra::congruent(K, basis_.T);
   if (!room) A = algebra::lower_sum(A, algebra::from_triplets(problem_.unknowns(), problem_.unknowns(), entries));
-  lower_ = basis_.of_signs() ? with_signs(std::move(A), basis_) : std::move(A);
+  lower_ = basis_.of_signs() ? basis_.with_signs(std::move(A)) : std::move(A);
   return {};
 }
 
@@ -125,7 +111,7 @@ algebra::Triplets HeldStiffness::assemble_near_rows(const algebra::Triplets& roo
 }
 
 StoredMatrix HeldStiffness::near_from_slices(std::vector<char>& of, int layers) const {
-  if (basis_.of_signs()) return with_signs(slices_->near(of, layers), basis_);
+  if (basis_.of_signs()) return basis_.with_signs(slices_->near(of, layers));
   std::vector<char> moved = of;  // flags of displacements
   const auto each_moved = [&](auto&& visit) {
     for (Eigen::Index j = 0; j < basis_.T.cols(); ++j)
@@ -158,13 +144,12 @@ void HeldStiffness::change(int row, int column, double by) {
   changed_.push_back({at, row, column, by});
 }
 
-/// Knows the entries of what is held, which are few, so that not all are looked at in each step.
-void HeldStiffness::watch(const std::vector<char>& held) {
-  bool known = true;
-  for (std::size_t i = 0; i < held.size(); ++i)
-    if (held[i] && !watched_[i]) watched_[i] = 1, known = false;
-  if (known) return;
-  of_watched_.clear();
+/// Knows the entries of what may be held, which are few, so that not all are looked at in each step.
+void HeldStiffness::watch() {
+  watched_.assign(static_cast<std::size_t>(problem_.unknowns()), 0);
+  for (const int unknown : basis_.unknown)
+    if (unknown >= 0) watched_[unknown] = 1;
+  for (const int unknown : fixing_noticed_) watched_[unknown] = 1;
   algebra::each_entry_of(lower(), watched_, [&](int place, int row, int column) { of_watched_.push_back({place, row, column}); });
 }
 
@@ -201,8 +186,7 @@ algebra::Triplets HeldStiffness::numbers(const std::vector<Entry>& now) const {
 
 bool HeldStiffness::factor(const Vector& spring, const std::vector<char>& held, const std::vector<Eigen::Triplet<double>>& added) {
   for (std::size_t i = 0; i < held.size(); ++i)
-    if (held[i] && place_[i] < 0) throw std::logic_error("held stiffness: an unknown is held that is not near rows");
-  watch(held);
+    if (held[i] && !watched_[i]) throw std::logic_error("held stiffness: an unknown is held that is neither a row's nor one of fixing_noticed()");
   held_ = held;
   const double* K = lower().valuePtr();
   for (const Entry& e : of_watched_) {
@@ -218,18 +202,6 @@ bool HeldStiffness::factor(const Vector& spring, const std::vector<char>& held, 
   return definite;
 }
 
-namespace {
-
-/// Columns of near unknowns alone, in their numbering; all others are empty.
-SparseRows near_columns(const SparseRows& rows, const std::vector<int>& place, int near) {
-  algebra::Triplets entries;
-  for (int r = 0; r < rows.rows(); ++r)
-    for (SparseRows::InnerIterator it(rows, r); it; ++it) entries.emplace_back(r, place[it.col()], it.value());
-  return algebra::from_triplets<SparseRows>(rows.rows(), near, entries);
-}
-
-}  // namespace
-
 void HeldStiffness::take_near_rows() {
   place_.assign(static_cast<std::size_t>(problem_.unknowns()), -1);
   const auto note = [&](Eigen::Index unknown) { place_[unknown] = 0; };
@@ -238,39 +210,18 @@ void HeldStiffness::take_near_rows() {
       for (SparseRows::InnerIterator it(*rows, r); it; ++it) note(it.col());
   for (const Entry& e : of_watched_) note(e.row), note(e.column);
   for (const int unknown : fixing_) note(unknown);
-  const auto each_of_T = [&](auto&& visit) {
-    for (Eigen::Index j = 0; j < basis_.T.cols(); ++j)
-      for (SparseMatrix::InnerIterator it(basis_.T, j); it; ++it) visit(it.row(), j, it.value());
-  };
-  each_of_T([&](Eigen::Index i, Eigen::Index j, double value) {
-    if (i != j || value != 1) note(i), note(j);
-  });
+  for (Eigen::Index j = 0; j < basis_.T.cols(); ++j)
+    for (SparseMatrix::InnerIterator it(basis_.T, j); it; ++it)
+      if (it.row() != j || it.value() != 1) note(it.row()), note(j);
   for (Eigen::Index i = 0; i < basis_.signs.size(); ++i)
     if (basis_.signs[i] != 1) note(i);
   for (std::size_t i = 0; i < place_.size(); ++i)
     if (place_[i] == 0) place_[i] = static_cast<int>(near_.size()), near_.push_back(static_cast<int>(i));
-  const int count = static_cast<int>(near_.size());
-  jumps_ = near_columns(problem_.B, place_, count), near_jumps_ = near_columns(rows_, place_, count);
-  if (basis_.signs.size() > 0) signs_ = basis_.signs(near_);
-  if (!basis_.of_signs()) {
-    algebra::Triplets entries;
-    each_of_T([&](Eigen::Index i, Eigen::Index j, double value) {
-      if (place_[i] >= 0 && place_[j] >= 0) entries.emplace_back(place_[i], place_[j], value);
-    });
-    T_ = algebra::from_triplets(count, count, entries);
-  }
+  algebra::with_columns(problem_.B, place_, jumps_), algebra::with_columns(rows_, place_, near_jumps_);
+  if (basis_.signs.size() > 0) near_basis_.signs = basis_.signs(near_);
+  if (!basis_.of_signs()) near_basis_.T = algebra::part_of(basis_.T, place_, near_);
   const auto* slices = problem::slices(problem_);
   vectors_ = slices ? slices->vectors(near_) : algebra::vectors_here(problem_.unknowns(), near_);
-}
-
-Vector HeldStiffness::displacements(const Vector& y) const {
-  if (!basis_.of_signs()) return T_ * y;
-  return signs_.size() > 0 ? Vector(signs_.cwiseProduct(y)) : y;
-}
-
-Vector HeldStiffness::forces(const Vector& f) const {
-  if (!basis_.of_signs()) return T_.transpose() * f;
-  return signs_.size() > 0 ? Vector(signs_.cwiseProduct(f)) : f;
 }
 
 void HeldStiffness::empty_held(Vector& near) const {
@@ -321,7 +272,7 @@ HeldStiffness::Displaced HeldStiffness::solve_in_basis(Field& elsewhere, Vector 
     out.near_resistance = resistance(moved, near - out.left.watched());
     out.left.set_watched(Vector::Zero(near.size()));
   }
-  out.near_u = displacements(moved);
+  out.near_u = near_basis_.displacements(moved);
   out.u.set_watched(out.near_u);
   if (unnoticed_.cols() > 0) out.u.put(without_unnoticed(out.u.get())), out.near_u = out.u.watched();
   return out;
@@ -330,97 +281,7 @@ HeldStiffness::Displaced HeldStiffness::solve_in_basis(Field& elsewhere, Vector 
 Vector HeldStiffness::solve(const Vector& b) const {
   Field forces = field();
   forces.put(b);
-  return solve_in_basis(forces, this->forces(forces.watched())).u.get();
-}
-
-namespace {
-
-/// The rigid motions of all bodies moving as one. No columns if a block has no function `rigid`.
-DenseMatrix all_rigid_motions(const Problem& problem) {
-  DenseMatrix all(problem.unknowns(), 0);
-  for (const problem::Block& block : problem.blocks) {
-    if (!block.rigid) return DenseMatrix(problem.unknowns(), 0);
-    const DenseMatrix own = block.rigid();
-    if (all.cols() == 0) all.setZero(problem.unknowns(), own.cols());
-    all.middleRows(block.first, block.size()) = own;
-  }
-  return all;
-}
-
-/// Solves with TᵀKT, T of signs, by a solver for K.
-class SignedSolver final : public algebra::SpdSolver {
- public:
-  /// `near`: all unknowns with other signs than +1, which are watched in fields.
-  SignedSolver(const Vector& signs, const std::vector<int>& near, std::unique_ptr<algebra::SpdSolver> of_K) : signs_(signs), near_signs_(signs(near)), of_K_(std::move(of_K)) {}
-
-  /// Entries of K from such of TᵀKT.
-  static algebra::Triplets of_K(const algebra::Triplets& entries, const Vector& signs) {
-    algebra::Triplets all;
-    for (const auto& e : entries) all.emplace_back(e.row(), e.col(), signs[e.row()] * signs[e.col()] * e.value());
-    return all;
-  }
-
-  bool set(const algebra::Triplets& changed, const std::vector<char>& held) override { return of_K_->set(of_K(changed, signs_), held); }
-  Vector solve(const Vector& b, double tolerance, Vector* left) override {
-    const Vector x = of_K_->solve(signs_.cwiseProduct(b), tolerance, left);
-    if (left) left->array() *= signs_.array();
-    return signs_.cwiseProduct(x);
-  }
-  Solved solve_fields(Field& b, double tolerance, Field& x, Field& left) override {
-    const auto turn = [&](Field& field) { field.set_watched(near_signs_.cwiseProduct(field.watched())); };
-    turn(b);
-    const Solved solved = of_K_->solve_fields(b, tolerance, x, left);
-    for (Field* field : {&b, &x, &left}) turn(*field);
-    return solved;
-  }
-  bool iterates() const override { return of_K_->iterates(); }
-  int iterations() const override { return of_K_->iterations(); }
-  int levels() const override { return of_K_->levels(); }
-  double bytes() const override { return of_K_->bytes(); }
-  std::string method() const override { return of_K_->method(); }
-
- private:
-  const Vector signs_, near_signs_;
-  const std::unique_ptr<algebra::SpdSolver> of_K_;
-};
-
-}  // namespace
-
-MakeSpdSolver factor(algebra::Ordering ordering) {
-  return {[ordering](const SpdSystem& s) { return algebra::factored(s.lower, problem::nodes(s.problem), ordering); }};
-}
-
-MakeSpdSolver incomplete_factor() {
-  return {[](const SpdSystem& s) { return algebra::incompletely_factored(s.lower, s.monitor); }};
-}
-
-MakeSpdSolver multigrid(Levels levels, double most_iterations) {
-  const auto make = [levels, most_iterations](const SpdSystem& s) -> std::unique_ptr<algebra::SpdSolver> {
-    const std::vector<int> nodes = problem::nodes(s.problem);
-    auto coarse = levels == Levels::meshes ? problem::coarse_functions(s.problem) : std::vector<SparseRows>();
-    const bool of_signs = s.basis.of_signs(), other_signs = of_signs && !s.basis.trivial();
-    StoredMatrix K;
-    if (!s.slices && !of_signs) K = problem::lower_stiffness(s.problem);
-    else if (!s.slices && other_signs) K = s.lower, K = with_signs(std::move(K), s.basis);
-    algebra::Triplets changed, beside;
-    if (other_signs) changed = SignedSolver::of_K(s.changed, s.basis.signs), beside = SignedSolver::of_K(s.beside_slices, s.basis.signs);
-    multigrid::Matrix matrix{other_signs && !s.slices ? K : s.lower, nodes, [&] {
-                               DenseMatrix motions = all_rigid_motions(s.problem);
-                               for (const SparseRows& functions : coarse) motions = problem::at_coarse(functions, motions);
-                               return motions;
-                             }};
-    matrix.rows = &s.problem.B, matrix.changed = other_signs ? &changed : &s.changed;
-    matrix.slices = s.slices, matrix.beside_slices = other_signs ? &beside : &s.beside_slices;
-    matrix.most_iterations = most_iterations;
-    if (!coarse.empty()) matrix.coarse = &coarse, matrix.dimension = s.problem.blocks[0].coarse.dimension, matrix.coarser = s.nested ? &s.nested->stiffness : nullptr;
-    const SparseMatrix unknowns = of_signs ? SparseMatrix() : s.basis.of_displacements(s.problem);
-    if (!of_signs) matrix.unknowns = &unknowns, matrix.displaced = s.slices ? nullptr : &K;
-    auto solver = multigrid::make_solver(matrix, s.monitor);
-    if (s.nested && s.problem.blocks.size() == 1) s.nested->functions = std::move(coarse);
-    if (!other_signs) return solver;
-    return std::make_unique<SignedSolver>(s.basis.signs, s.near_rows, std::move(solver));
-  };
-  return {make, levels == Levels::meshes};  // aggregates of a mesh that has coarser ones: nested iteration wants the whole
+  return solve_in_basis(forces, near_basis_.forces(forces.watched())).u.get();
 }
 
 }  // namespace dotyk::solver

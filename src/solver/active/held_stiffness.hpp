@@ -74,16 +74,13 @@ class HeldStiffness {
   int place(int unknown) const { return place_[unknown]; }            ///< among them; −1: it is none
   const algebra::SparseRows& jumps() const { return jumps_; }         ///< B of near displacements
   const algebra::SparseRows& rows() const { return near_jumps_; }     ///< B T, likewise
-  const algebra::SparseMatrix& transformation() const { return T_; }  ///< T, likewise; empty where T is of signs
-  /// T y and Tᵀf, likewise.
-  algebra::Vector displacements(const algebra::Vector& y) const;
-  algebra::Vector forces(const algebra::Vector& f) const;
+  const problem::RowBasis& near_basis() const { return near_basis_; } ///< basis(), likewise
   /// Zeros. Such vectors lie with the slices of K, or here where there are none; near_rows() are watched.
   algebra::Field field() const { return algebra::Field(vectors_); }
   /// Flags so many layers of neighbours in `of` as well, and returns a lower triangle that has at least the entries of TᵀKT in rows and columns of flagged unknowns.
   algebra::SymmetricMatrix near(std::vector<char>& of, int layers) const;
-  /// `spring`: s, force per displacement, rows; `held`: one flag an unknown of the basis, of those of rows and of fixing_noticed() alone; `added`: to the matrix, lower triangle, of the unknowns of
-  /// rows of one point. False where the matrix is not positive definite.
+  /// `spring`: s, force per displacement, rows; `held`: one flag an unknown of the basis, of those of rows and of fixing_noticed() alone; `added`: to the
+  /// matrix, lower triangle, of the unknowns of rows of one point. False where the matrix is not positive definite.
   bool factor(const algebra::Vector& spring, const std::vector<char>& held, const std::vector<Eigen::Triplet<double>>& added = {});
   /// What forces displace.
   struct Displaced {
@@ -128,7 +125,7 @@ class HeldStiffness {
   algebra::StoredMatrix near_from_slices(std::vector<char>& of, int layers) const;
   void change(int row, int column, double by);
   void spring_rows(const algebra::Vector& spring);
-  void watch(const std::vector<char>& held);
+  void watch();
   void take_near_rows();
   void empty_held(algebra::Vector& near) const;  ///< zeros there
   /// TᵀKT y from A y near rows, for a y that is zero at what is held: A has springs in addition, and lacks the rows of held unknowns.
@@ -147,8 +144,7 @@ class HeldStiffness {
   algebra::SparseRows rows_;        ///< B T
   std::vector<int> near_, place_;
   algebra::SparseRows jumps_, near_jumps_;
-  algebra::SparseMatrix T_;
-  algebra::Vector signs_;           ///< of near unknowns; empty where T is the identity
+  problem::RowBasis near_basis_;
   std::shared_ptr<algebra::Vectors> vectors_;
   algebra::SymmetricMatrix lower_;  ///< K itself where that has the room and T is the identity
   const algebra::SlicedMatrix* slices_ = nullptr;  ///< K; null: lower() is the whole
