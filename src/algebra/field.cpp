@@ -6,12 +6,12 @@ namespace {
 
 class VectorsHere final : public Vectors {
  public:
-  VectorsHere(int unknowns, std::vector<int> watched) : all_(unknowns, std::move(watched), true) {}
+  VectorsHere(int unknowns, std::vector<int> watched) : Vectors(unknowns, std::move(watched)), all_(unknowns, true) {}
   double run(const VectorOrder& order) override { return all_.run(order); }
   Vector get(int v) override { return vector(all_[v]); }
   void put(int v, const Vector& numbers) override { all_[v].assign(numbers.begin(), numbers.end()); }
-  Vector watched(int v) override { return vector(all_.watched(v)); }
-  void set_watched(int v, const Vector& numbers) override { all_.set_watched(v, {numbers.begin(), numbers.end()}); }
+  Vector some(int v, const std::vector<int>& unknowns) override { return vector(all_.some(v, unknowns)); }
+  void set_some(int v, const std::vector<int>& unknowns, const Vector& numbers) override { all_.set_some(v, unknowns, {numbers.begin(), numbers.end()}); }
 
  private:
   static Vector vector(const std::vector<double>& numbers) { return Eigen::Map<const Vector>(numbers.data(), std::ssize(numbers)); }

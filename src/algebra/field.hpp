@@ -9,19 +9,23 @@
 
 namespace dotyk::algebra {
 
-/// Where vectors lie. They are known by numbers from 1. Some unknowns are watched: their numbers are told and set at little cost, as one vector in the order of
-/// these unknowns.
+/// Where vectors lie. They are known by numbers from 1. Of some unknowns the numbers are told and set at little cost. Those that are `watched` are often asked for.
 class Vectors {
  public:
+  Vectors(int unknowns, std::vector<int> watched) : unknowns_(unknowns), watched_(std::move(watched)) {}
   virtual ~Vectors() = default;
+  int unknowns() const { return unknowns_; }                     ///< numbers of a vector
+  const std::vector<int>& watched() const { return watched_; }  ///< ascending
   int next() { return ++last_; }                       ///< the number of a new vector, to be made by Op::make
   virtual double run(const VectorOrder& order) = 0;    ///< what the order tells, else 0
   virtual Vector get(int v) = 0;                       ///< all numbers, in the order of the unknowns
   virtual void put(int v, const Vector& numbers) = 0;  ///< likewise
-  virtual Vector watched(int v) = 0;
-  virtual void set_watched(int v, const Vector& numbers) = 0;
+  virtual Vector some(int v, const std::vector<int>& unknowns) = 0;
+  virtual void set_some(int v, const std::vector<int>& unknowns, const Vector& numbers) = 0;
 
  private:
+  const int unknowns_;
+  const std::vector<int> watched_;
   int last_ = 0;
 };
 
@@ -57,8 +61,10 @@ class Field {
   double greatest() const { return run(Op::greatest); }  ///< ‖·‖∞; numbers that are none may go unseen, moduli() shows them
   Vector get() const { return where_->get(number_); }
   void put(const Vector& numbers) { where_->put(number_, numbers); }
-  Vector watched() const { return where_->watched(number_); }
-  void set_watched(const Vector& numbers) { where_->set_watched(number_, numbers); }
+  Vector some(const std::vector<int>& unknowns) const { return where_->some(number_, unknowns); }
+  void set_some(const std::vector<int>& unknowns, const Vector& numbers) { where_->set_some(number_, unknowns, numbers); }
+  Vector watched() const { return some(where_->watched()); }
+  void set_watched(const Vector& numbers) { set_some(where_->watched(), numbers); }
 
   const std::shared_ptr<Vectors>& where() const { return where_; }
   int number() const { return number_; }

@@ -32,6 +32,8 @@ class SpdSolver {
     if (rest.size() > 0) left.put(rest);
     return {solution.allFinite(), rest.size() > 0};
   }
+  /// fine = P coarse, where the solver has made the matrix of the next coarser mesh, and `coarse` lies with its slices. Else false.
+  virtual bool interpolate(const Field& /*coarse*/, Field& /*fine*/) const { return false; }
   /// Does the work grow with the digits asked for?
   virtual bool iterates() const { return true; }
   virtual int iterations() const { return 0; }  ///< of all calls of solve() together, where it tells

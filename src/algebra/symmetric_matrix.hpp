@@ -26,6 +26,7 @@ class SlicedMatrix {
   virtual StoredMatrix near(std::vector<char>& of, int layers = 0) const = 0;
   /// Vectors that lie where the rows do; `watched`: unknowns, ascending. A block has none.
   virtual std::shared_ptr<Vectors> vectors(const std::vector<int>& watched) const = 0;
+  virtual bool holds(const Vectors& vectors) const = 0;  ///< do they lie there?
   /// from −= A u for such vectors: in extended precision, or in double precision with u.high alone.
   virtual void take_product(const LongField& u, bool precisely, Field& from) const = 0;
 

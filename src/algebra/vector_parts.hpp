@@ -34,8 +34,8 @@ struct VectorOrder {
 /// Vectors of one length, or what one process has of such vectors.
 class VectorParts {
  public:
-  /// `watched`: places, in the order in which watched() tells them. `threads`: on all cores, else on one.
-  VectorParts(std::ptrdiff_t size, std::vector<int> watched, bool threads) : size_(size), watched_(std::move(watched)), few_(threads ? 100'000 : std::numeric_limits<int>::max()) {}
+  /// `threads`: on all cores, else on one.
+  VectorParts(std::ptrdiff_t size, bool threads) : size_(size), few_(threads ? 100'000 : std::numeric_limits<int>::max()) {}
 
   std::vector<double>& operator[](int v) { return vectors_.at(v); }
   /// What the order tells, of this part; else 0.
@@ -69,15 +69,15 @@ class VectorParts {
     }
     return 0;
   }
-  std::vector<double> watched(int v) const {
+  std::vector<double> some(int v, const std::vector<int>& places) const {
     const std::vector<double>& all = vectors_.at(v);
     std::vector<double> numbers;
-    for (const int i : watched_) numbers.push_back(all[i]);
+    for (const int i : places) numbers.push_back(all[i]);
     return numbers;
   }
-  void set_watched(int v, const std::vector<double>& numbers) {
+  void set_some(int v, const std::vector<int>& places, const std::vector<double>& numbers) {
     std::vector<double>& all = vectors_.at(v);
-    for (std::size_t k = 0; k < watched_.size(); ++k) all[watched_[k]] = numbers[k];
+    for (std::size_t k = 0; k < places.size(); ++k) all[places[k]] = numbers[k];
   }
 
  private:
@@ -98,7 +98,6 @@ class VectorParts {
   }
 
   std::ptrdiff_t size_;
-  std::vector<int> watched_;
   std::int64_t few_;  ///< numbers for a thread
   std::map<int, std::vector<double>> vectors_;
 };

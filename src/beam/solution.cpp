@@ -43,7 +43,7 @@ double Solution::moment_between(double from, double to) const {
 }
 
 Eigen::Vector4d Solution::values(int cell) const {
-  const Eigen::Vector4d w = result_.state.u.segment<4>(2 * cell);
+  const Eigen::Vector4d w = result_.state.u.here().segment<4>(2 * cell);
   return {w[0], w[1] / model_.unit, w[2], w[3] / model_.unit};
 }
 
@@ -93,8 +93,8 @@ Reaction Solution::reaction(int support) const {
   if (rows.rotation >= 0) r.moment = rows.turn * lambda[rows.rotation] * model_.unit;
   if (laws.deflection.kind == problem::SupportLaw::Kind::load) r.force = laws.deflection.value;
   if (laws.rotation.kind == problem::SupportLaw::Kind::load) r.moment = laws.rotation.value;
-  r.deflection = u[2 * rows.node];
-  r.rotation = u[2 * rows.node + 1] / model_.unit;
+  r.deflection = u.here()[2 * rows.node];
+  r.rotation = u.here()[2 * rows.node + 1] / model_.unit;
   return r;
 }
 

@@ -39,7 +39,7 @@ solver::Result run(const Model& model, const std::string& note, const solver::Me
     result.converged = false;
     result.reason = kUnbalanced;
   }
-  const bool told = solver::settle(model.problem, algebra::Vector::Zero(result.state.u.size()), result).count > 0;
+  const bool told = solver::settle(model.problem, {}, result).count > 0;
   if (!told && !note.empty() && result.reason.find("unique up to") == std::string::npos) result.reason += "; " + note;
   return result;
 }

@@ -34,7 +34,7 @@ class PetscSolver final : public algebra::SpdSolver {
         numbering_(slices_ ? slices_->numbering() : std::make_shared<const Numbering>(numbered(matrix, workers_.ranks().count()))), sharing_(sharing_unknowns(matrix)) {
     const Ranks& ranks = workers_.ranks();
     Pieces pieces(matrix, *numbering_, ranks.count());
-    std::shared_ptr<const algebra::SlicedMatrix> coarser;
+    std::shared_ptr<const RankSlices> coarser;
     ranks.together([&] {
       const bool asked = matrix.coarser && geometric_;
       const Workers of_coarser = workers_.next();
@@ -46,8 +46,9 @@ class PetscSolver final : public algebra::SpdSolver {
     alone_.unlock();
     if (!coarser) return;
     const auto unknowns = static_cast<double>(coarser->diagonal().size());
-    *matrix.coarser = coarser;
+    *matrix.coarser = std::shared_ptr<const algebra::SlicedMatrix>(coarser);
     if (!ranks.alone() && !several_ranks_have_work(unknowns)) *matrix.coarser = matrix.coarser->lower();
+    else coarser_numbering_ = coarser->numbering();
   }
   ~PetscSolver() override {
     alone_.lock();
@@ -80,8 +81,21 @@ class PetscSolver final : public algebra::SpdSolver {
   }
 
   Solved solve_fields(algebra::Field& b, double tolerance, algebra::Field& x, algebra::Field& left) override {
-    auto* of_ranks = dynamic_cast<RankVectors*>(b.where().get());
-    return of_ranks && &of_ranks->numbering() == numbering_.get() ? solve_in(*of_ranks, b, tolerance, x, left) : SpdSolver::solve_fields(b, tolerance, x, left);
+    RankVectors* room = place_of(b, numbering_);
+    return room ? solve_in(*room, b, tolerance, x, left) : SpdSolver::solve_fields(b, tolerance, x, left);
+  }
+
+  bool interpolate(const algebra::Field& coarse, algebra::Field& fine) const override {
+    RankVectors *from = coarser_numbering_ ? place_of(coarse, coarser_numbering_) : nullptr, *to = place_of(fine, numbering_);
+    if (!from || !to) return false;
+    const std::lock_guard lock(only_one());
+    const Ranks& ranks = workers_.ranks();
+    ranks.together([&] {
+      workers_.tell(Task::interpolate);
+      for (int r = 1; r < ranks.count(); ++r) ranks.send(r, std::vector<int>{from->number(), coarse.number(), to->number(), fine.number()});
+      cycle_->interpolate(from->own()[coarse.number()], to->own()[fine.number()]);
+    });
+    return true;
   }
 
   double bytes() const override {
@@ -97,6 +111,11 @@ class PetscSolver final : public algebra::SpdSolver {
   }
 
  private:
+  /// Where the field lies, if that is with this numbering; else null.
+  static RankVectors* place_of(const algebra::Field& field, const std::shared_ptr<const Numbering>& numbering) {
+    auto* of_ranks = dynamic_cast<RankVectors*>(field.where().get());
+    return of_ranks && &of_ranks->numbering() == numbering.get() ? of_ranks : nullptr;
+  }
   /// Sends each other rank its piece; returns that of rank 0. `coarser`: as in Piece. Pieces are made in parallel, as many at a time as there are
   /// cores. The first are made before the other ranks are told to begin, because a rank keeps a core busy while it waits for its piece.
   Piece share_out(Pieces& pieces, int coarser) const {
@@ -137,6 +156,7 @@ class PetscSolver final : public algebra::SpdSolver {
   const RankSlices* const slices_;  // of the matrix that it is made from, until it is made; null: none
   Workers workers_;
   const std::shared_ptr<const Numbering> numbering_;
+  std::shared_ptr<const Numbering> coarser_numbering_;  ///< of the slices of the next coarser mesh's matrix; null: there are none
   const std::set<int> sharing_;
   std::unique_ptr<Cycle> cycle_;
   int iterations_ = 0;

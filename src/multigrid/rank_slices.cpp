@@ -166,10 +166,14 @@ void RankSlices::multiply(Slice::Product how, RankVectors& v, const Slice::Facto
   });
 }
 
+bool RankSlices::holds(const algebra::Vectors& vectors) const {
+  const auto* of_ranks = dynamic_cast<const RankVectors*>(&vectors);
+  return of_ranks && &of_ranks->numbering() == numbering_.get();
+}
+
 void RankSlices::take_product(const algebra::LongField& u, bool precisely, algebra::Field& from) const {
-  auto* vectors = dynamic_cast<RankVectors*>(from.where().get());
-  if (!vectors || &vectors->numbering() != numbering_.get()) throw std::logic_error("slices: vectors that lie elsewhere");
-  multiply(precisely ? Slice::Product::taken_precisely : Slice::Product::taken, *vectors, {u.high.number(), u.low.number(), from.number()});
+  if (!holds(*from.where()) || from.where() != u.high.where()) throw std::logic_error("slices: vectors that lie elsewhere");
+  multiply(precisely ? Slice::Product::taken_precisely : Slice::Product::taken, dynamic_cast<RankVectors&>(*from.where()), {u.high.number(), u.low.number(), from.number()});
 }
 
 Vector RankSlices::product(Slice::Product how, const Vector& x) const {

@@ -23,6 +23,7 @@ class RankSlices final : public algebra::SlicedMatrix {
   algebra::Vector gross_times(const algebra::Vector& x) const override;
   algebra::StoredMatrix near(std::vector<char>& of, int layers) const override;
   std::shared_ptr<algebra::Vectors> vectors(const std::vector<int>& watched) const override;
+  bool holds(const algebra::Vectors& vectors) const override;
   void take_product(const algebra::LongField& u, bool precisely, algebra::Field& from) const override;
 
   const Workers& workers() const { return workers_; }

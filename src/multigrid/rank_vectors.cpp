@@ -23,32 +23,18 @@ double run_together(const Ranks& ranks, const VectorOrder& order, VectorParts& o
   }
 }
 
-/// By rank the places, among `watched`, of the unknowns that it has.
-std::vector<std::vector<int>> by_rank(const Numbering& numbering, const std::vector<int>& watched, int ranks) {
-  std::vector<std::vector<int>> places(static_cast<std::size_t>(ranks));
-  for (std::size_t k = 0; k < watched.size(); ++k) places[numbering.rank_of(numbering.slot()[watched[k]])].push_back(static_cast<int>(k));
-  return places;
-}
-
-/// Rows of the watched unknowns in a rank's part, counted from its first; `of_ranks`: as by_rank() gives them.
-std::vector<int> own_places(const Numbering& numbering, const std::vector<int>& watched, const std::vector<std::vector<int>>& of_ranks, int rank) {
-  std::vector<int> rows;
-  for (const int k : of_ranks[rank]) rows.push_back(numbering.slot()[watched[k]] - numbering.first(0)[rank]);
-  return rows;
-}
-
 int size_of(const Numbering& numbering, int rank) { return numbering.first(0)[rank + 1] - numbering.first(0)[rank]; }
 
 }  // namespace
 
 RankVectors::RankVectors(const Workers& workers, std::shared_ptr<const Numbering> numbering, const std::vector<int>& watched)
-    : workers_(workers.next()), numbering_(std::move(numbering)), watched_(by_rank(*numbering_, watched, workers.ranks().count())),
-      own_(size_of(*numbering_, 0), own_places(*numbering_, watched, watched_, 0), workers.ranks().alone()) {
+    : Vectors(static_cast<int>(numbering->slot().size()), watched), workers_(workers.next()), numbering_(std::move(numbering)),
+      own_(size_of(*numbering_, 0), workers.ranks().alone()) {
   const std::lock_guard lock(only_one());
   const Ranks& ranks = workers_.ranks();
   ranks.together([&] {
     workers_.tell(Task::vectors);
-    for (int r = 1; r < ranks.count(); ++r) ranks.send(r, std::vector<int>{size_of(*numbering_, r)}), ranks.send(r, own_places(*numbering_, watched, watched_, r));
+    for (int r = 1; r < ranks.count(); ++r) ranks.send(r, std::vector<int>{size_of(*numbering_, r)});
   });
 }
 
@@ -58,9 +44,9 @@ RankVectors::~RankVectors() {
 }
 
 VectorParts receive_vectors(const Ranks& ranks) {
-  std::vector<int> size, watched;
-  ranks.receive(0, size), ranks.receive(0, watched);
-  return {size[0], std::move(watched), false};
+  std::vector<int> size;
+  ranks.receive(0, size);
+  return {size[0], false};
 }
 
 double RankVectors::run(const VectorOrder& order) {
@@ -86,16 +72,30 @@ void RankVectors::tell(Task task, int v) const {
   for (int r = 1; r < workers_.ranks().count(); ++r) workers_.ranks().send(r, std::vector<int>{v});
 }
 
+void RankVectors::tell(Task task, int v, const Of& some) const {
+  tell(task, v);
+  for (int r = 1; r < workers_.ranks().count(); ++r) workers_.ranks().send(r, some.rows[r]);
+}
+
+RankVectors::Of RankVectors::by_rank(const std::vector<int>& unknowns) const {
+  const auto ranks = static_cast<std::size_t>(workers_.ranks().count());
+  Of of{std::vector<std::vector<int>>(ranks), std::vector<std::vector<int>>(ranks)};
+  for (std::size_t k = 0; k < unknowns.size(); ++k) {
+    const int row = numbering_->slot()[unknowns[k]], rank = numbering_->rank_of(row);
+    of.places[rank].push_back(static_cast<int>(k)), of.rows[rank].push_back(row - numbering_->first(0)[rank]);
+  }
+  return of;
+}
+
 void exchange_numbers(const Ranks& ranks, Task task, VectorParts& vectors) {
-  std::vector<int> v;
+  std::vector<int> v, rows;
   std::vector<double> numbers;
   ranks.receive(0, v);
-  switch (task) {
-    case Task::get: ranks.send(0, vectors[v[0]]); break;
-    case Task::put: ranks.receive(0, vectors[v[0]]); break;
-    case Task::watched: ranks.send(0, vectors.watched(v[0])); break;
-    default: ranks.receive(0, numbers), vectors.set_watched(v[0], numbers);
-  }
+  if (task == Task::get) return ranks.send(0, vectors[v[0]]);
+  if (task == Task::put) return ranks.receive(0, vectors[v[0]]);
+  ranks.receive(0, rows);
+  if (task == Task::get_some) return ranks.send(0, vectors.some(v[0], rows));
+  ranks.receive(0, numbers), vectors.set_some(v[0], rows, numbers);
 }
 
 Vector RankVectors::get(int v) {
@@ -122,35 +122,35 @@ void RankVectors::put(int v, const Vector& numbers) {
   });
 }
 
-Vector RankVectors::watched(int v) {
+Vector RankVectors::some(int v, const std::vector<int>& unknowns) {
   const std::lock_guard lock(only_one());
   const Ranks& ranks = workers_.ranks();
+  const Of of = by_rank(unknowns);
   return ranks.together([&] {
-    tell(Task::watched, v);
-    Eigen::Index count = 0;
-    for (const auto& places : watched_) count += std::ssize(places);
-    Vector all(count);
-    std::vector<double> part = own_.watched(v);
+    tell(Task::get_some, v, of);
+    Vector all(std::ssize(unknowns));
+    std::vector<double> part = own_.some(v, of.rows[0]);
     for (int r = 0; r < ranks.count(); ++r) {
       if (r > 0) ranks.receive(r, part);
-      for (std::size_t k = 0; k < part.size(); ++k) all[watched_[r][k]] = part[k];
+      for (std::size_t k = 0; k < part.size(); ++k) all[of.places[r][k]] = part[k];
     }
     return all;
   });
 }
 
-void RankVectors::set_watched(int v, const Vector& numbers) {
+void RankVectors::set_some(int v, const std::vector<int>& unknowns, const Vector& numbers) {
   const std::lock_guard lock(only_one());
   const Ranks& ranks = workers_.ranks();
+  const Of of = by_rank(unknowns);
   const auto part = [&](int rank) {
     std::vector<double> own;
-    for (const int k : watched_[rank]) own.push_back(numbers[k]);
+    for (const int k : of.places[rank]) own.push_back(numbers[k]);
     return own;
   };
   ranks.together([&] {
-    tell(Task::set_watched, v);
+    tell(Task::set_some, v, of);
     for (int r = 1; r < ranks.count(); ++r) ranks.send(r, part(r));
-    own_.set_watched(v, part(0));
+    own_.set_some(v, of.rows[0], part(0));
   });
 }
 

@@ -20,20 +20,26 @@ class RankVectors final : public algebra::Vectors {
   double run(const algebra::VectorOrder& order) override;
   algebra::Vector get(int v) override;
   void put(int v, const algebra::Vector& numbers) override;
-  algebra::Vector watched(int v) override;
-  void set_watched(int v, const algebra::Vector& numbers) override;
+  algebra::Vector some(int v, const std::vector<int>& unknowns) override;
+  void set_some(int v, const std::vector<int>& unknowns, const algebra::Vector& numbers) override;
 
   int number() const { return workers_.number(); }  ///< by which the ranks know them
   const Numbering& numbering() const { return *numbering_; }
   algebra::VectorParts& own() { return own_; }  ///< of rank 0
 
  private:
+  /// Some unknowns, by rank.
+  struct Of {
+    std::vector<std::vector<int>> places;  ///< among them
+    std::vector<std::vector<int>> rows;    ///< in the rank's part, counted from its first
+  };
+  Of by_rank(const std::vector<int>& unknowns) const;
   /// Tells the other ranks to put numbers into v, or to send what they have of it.
   void tell(Task task, int v) const;
+  void tell(Task task, int v, const Of& some) const;
 
   Workers workers_;
   std::shared_ptr<const Numbering> numbering_;
-  std::vector<std::vector<int>> watched_;  ///< by rank the places among the watched unknowns
   algebra::VectorParts own_;
 };
 

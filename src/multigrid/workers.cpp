@@ -92,6 +92,12 @@ void solve(Cycle& cycle, Vectors& vectors) {
   cycle.solve(own[which[1]], ending[0], ending[1], nullptr, own[which[2]], own[which[3]]);
 }
 
+void interpolate(Cycle& cycle, Vectors& vectors) {
+  std::vector<int> which;
+  world().receive(0, which);
+  cycle.interpolate(vectors.at(which[0])[which[1]], vectors.at(which[2])[which[3]]);
+}
+
 void multiply(Slice& slice, Vectors& vectors) {
   std::vector<int> which;
   world().receive(0, which);
@@ -180,6 +186,7 @@ void work(bool spawned, Assemble assemble) {
         case Task::make: cycles[number] = make(slices); break;
         case Task::set: cycles.at(number)->set(receive_change(world(), 0)); break;
         case Task::solve: solve(*cycles.at(number), vectors); break;
+        case Task::interpolate: interpolate(*cycles.at(number), vectors); break;
         case Task::drop: cycles.erase(number); break;
         case Task::slice: slices[number] = receive_slice(world(), assemble); break;
         case Task::multiply: multiply(*slices.at(number), vectors); break;
@@ -189,8 +196,8 @@ void work(bool spawned, Assemble assemble) {
         case Task::order: run_order(world(), vectors.at(number)); break;
         case Task::get:
         case Task::put:
-        case Task::watched:
-        case Task::set_watched: exchange_numbers(world(), static_cast<Task>(order[0]), vectors.at(number)); break;
+        case Task::get_some:
+        case Task::set_some: exchange_numbers(world(), static_cast<Task>(order[0]), vectors.at(number)); break;
         case Task::drop_vectors: vectors.erase(number); break;
         case Task::end:
           stop_watching();

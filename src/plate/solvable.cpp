@@ -49,7 +49,7 @@ Vector by_motion(const algebra::SparseRows& B, const Vector& moved) {
 Family family(const Model& model, const problem::State& state, const Vector& motion) {
   const problem::Problem& problem = model.problem;
   const Vector moved = model.unknowns(motion);
-  const Vector x = problem.B * state.u - problem.c, by = by_motion(problem.B, moved);
+  const Vector x = problem::jumps(problem, state.u), by = by_motion(problem.B, moved);
   const double noise = 1e-9 * std::max(state.lambda.size() ? state.lambda.lpNorm<Eigen::Infinity>() : 0.0, problem.blocks.front().f.lpNorm<Eigen::Infinity>());
   Family out{motion, -INFINITY, INFINITY};
   for (const problem::RowGroup& group : problem.groups)
@@ -63,7 +63,7 @@ Family family(const Model& model, const problem::State& state, const Vector& mot
       out.to = std::min(out.to, b);
     }
   if (out.from > out.to) out.from = out.to = 0;
-  const double rounding = 1e-12 * std::max(state.u.lpNorm<Eigen::Infinity>(), model.space.unit * 1e-3);
+  const double rounding = 1e-12 * std::max(state.u.here().lpNorm<Eigen::Infinity>(), model.space.unit * 1e-3);
   for (double* end : {&out.from, &out.to})
     if (std::abs(*end) < rounding) *end = 0;
   return out;

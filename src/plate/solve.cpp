@@ -112,7 +112,7 @@ std::optional<LimitCase> solve_limit_case(const Model& model, const Vector& moti
   out.result.active_sets.clear();
   out.all = family(model, out.result.state, motion);
   const double begin = std::isfinite(out.all.from) ? out.all.from : std::isfinite(out.all.to) ? out.all.to : 0;
-  out.result.state.u += begin * moved;
+  out.result.state.u.change() += begin * moved;
   out.all.from -= begin;
   out.all.to -= begin;
   return out;
@@ -135,7 +135,7 @@ void normalise(const Model& model, Vector& unknowns) {
 /// Edges apart from one another may bear the most that they can, one up and one down, and leave the plate free to move. All solutions then,
 /// if they differ by one motion; the state becomes the least of them.
 std::optional<Family> settled(const Model& model, solver::Result& result) {
-  const problem::FreeMotions free = solver::settle(model.problem, Vector::Zero(result.state.u.size()), result);
+  const problem::FreeMotions free = solver::settle(model.problem, {}, result);
   if (free.count != 1) return {};
   return family(model, result.state, of_freedoms(model, Vector(free.motions.col(0))));
 }
@@ -165,7 +165,7 @@ std::shared_ptr<const Solution> solve(std::shared_ptr<const Model> model, const 
     if (verdict.motion && result.converged && !all) all = family(*model, result.state, *verdict.motion);
   }
   tell(verdict.note, result.reason);
-  if (model->problem.rows() == 0 && model->problem.blocks.front().kernel.cols() == 3) normalise(*model, result.state.u);
+  if (model->problem.rows() == 0 && model->problem.blocks.front().kernel.cols() == 3) normalise(*model, result.state.u.change());
   result.clock.assembly += model->seconds;
   result.clock.total = model->seconds + total.seconds();
   return std::make_shared<const Solution>(std::move(model), std::move(result), std::move(all));

@@ -189,18 +189,23 @@ Coarser coarser(const Problem& problem, std::vector<SparseRows> functions, algeb
   return out;
 }
 
-State Coarser::prolonged(const State& state) const {
+Vector Coarser::finer_displacement(const Vector& u) const {
   Eigen::Index unknowns = 0;
   for (const auto& P : functions) unknowns += P->rows();
-  State out{algebra::Vector(unknowns), algebra::Vector::Zero(problem.rows())};
+  Vector finer(unknowns);
   Eigen::Index first = 0;
   for (std::size_t b = 0; b < functions.size(); ++b) {
     const SparseRows& P = *functions[b];
     parallel_parts(P.rows(), [&](int begin, int end) {
-      out.u.segment(first + begin, end - begin) = P.middleRows(begin, end - begin) * state.u.segment(problem.blocks[b].first, P.cols());
+      finer.segment(first + begin, end - begin) = P.middleRows(begin, end - begin) * u.segment(problem.blocks[b].first, P.cols());
     });
     first += P.rows();
   }
+  return finer;
+}
+
+Vector Coarser::finer_forces(const Vector& lambda) const {
+  Vector finer = Vector::Zero(problem.rows());
   for (const std::vector<int>& rows : kinds(problem)) {
     std::map<int, int> kept_at;  // unknown of the greatest factor → row
     for (const int r : rows)
@@ -209,9 +214,9 @@ State Coarser::prolonged(const State& state) const {
     for (const int r : rows)
       for (SparseRows::InnerIterator it(problem.B, r); it; ++it)
         if (const auto at = kept_at.find(static_cast<int>(it.col())); at != kept_at.end())
-          out.lambda[r] += share * state.lambda[at->second] * it.value() / problem.B.coeff(at->second, it.col());
+          finer[r] += share * lambda[at->second] * it.value() / problem.B.coeff(at->second, it.col());
   }
-  return out;
+  return finer;
 }
 
 }  // namespace dotyk::problem

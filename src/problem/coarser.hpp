@@ -24,9 +24,9 @@ struct Coarser {
   std::vector<char> kept;
   std::vector<std::shared_ptr<const algebra::SparseRows>> functions;  ///< by block: the finer unknowns by the coarser ones
 
-  /// The state of the finer problem that a state (u, λ) of this one, λ on the rows that are kept, is nearest to: u by the functions, forces of rows
-  /// by their densities between those kept.
-  State prolonged(const State& state) const;
+  /// What a state (u, λ) of this problem is on the finer mesh: u by the functions; the forces of all rows from those of the rows kept, by their densities.
+  algebra::Vector finer_displacement(const algebra::Vector& u) const;
+  algebra::Vector finer_forces(const algebra::Vector& lambda) const;
 };
 /// `functions`: coarse_functions() of a problem of one block. `stiffness`: PᵀKP of all blocks, P the functions of the next coarser meshes without the empty
 /// ones. What is empty of the two is computed. Throws std::logic_error where there are no coarser meshes.

@@ -27,7 +27,7 @@ double greatest_force(const Problem& problem, const Vector& lambda) {
 class Conditions {
  public:
   Conditions(const Problem& problem, const State& state, double tolerance)
-      : x_(problem.B * state.u - problem.c), lambda_(state.lambda), small_(small_forces(problem, state.lambda, tolerance)),
+      : x_(jumps(problem, state.u)), lambda_(state.lambda), small_(small_forces(problem, state.lambda, tolerance)),
         compliance_(problem.row_compliance()),
         left_(10 * tolerance * greatest_force(problem, state.lambda)) {
     for (const RowGroup& group : problem.groups)

@@ -44,12 +44,22 @@ Parts parts(const Problem& problem) {
 }
 
 Forces external_forces(const Problem& problem, const State& state) {
-  return {{}, problem.B.transpose() * state.lambda, problem.load()};
+  const auto u = field(problem, state.u);
+  const algebra::Field zero(u->where());
+  Forces all{u, std::nullopt, zero, zero};
+  const std::vector<int> unknowns = problem.unknowns_of_rows();
+  const Vector contact = problem.B.transpose() * state.lambda;
+  all.contact.set_some(unknowns, contact(unknowns));
+  if (problem.loaded()) all.load.put(problem.load());
+  return all;
 }
 
 Forces forces(const Problem& problem, const State& state) {
   Forces all = external_forces(problem, state);
-  all.internal = stiffness_times(problem, state.u);
+  algebra::Field taken(all.u->where());
+  take_stiffness_times(problem, {*all.u, taken}, true, taken);
+  all.internal.emplace(all.u->where());
+  all.internal->add(-1, taken);
   return all;
 }
 
@@ -62,23 +72,60 @@ double dot(const Eigen::Ref<const Vector>& a, const Eigen::Ref<const Vector>& b)
   return parallel_sum(a.size(), kFew, [&](int first, int end) { return a.segment(first, end - first).dot(b.segment(first, end - first)); });
 }
 
+namespace {
+
+/// A norm whose squares neither overflow nor vanish.
+bool moderate(double norm) {
+  constexpr double kSquares = 1e140;
+  return norm < kSquares && norm > 1 / kSquares;
+}
+
+}  // namespace
+
 void add(double& norm, const Eigen::Ref<const Vector>& v) {
-  constexpr double kSquares = 1e140;  // numbers up to it, and down to its inverse, have squares that add up
   const double plain = std::sqrt(dot(v, v));
-  norm = std::hypot(norm, plain < kSquares && plain > 1 / kSquares ? plain : v.stableNorm());
+  norm = std::hypot(norm, moderate(plain) ? plain : v.stableNorm());
+}
+
+template <class OfAll, class OfBlock>
+std::vector<double> OfParts::each(const OfAll& of_all, const OfBlock& of_block) const {
+  if (parts_.count == 1) return {of_all()};
+  std::vector<double> sums(static_cast<std::size_t>(parts_.count), 0);
+  for (std::size_t b = 0; b < problem_.blocks.size(); ++b) of_block(problem_.blocks[b], sums[static_cast<std::size_t>(parts_.of_block[b])]);
+  return sums;
+}
+
+std::vector<double> OfParts::dot(const algebra::Field& a, const algebra::Field& b) const {
+  const bool one = parts_.count == 1;
+  const Vector of_a = one ? Vector() : a.get(), of_b = one ? Vector() : b.get();
+  return each([&] { return a.dot(b); },
+              [&](const Block& block, double& sum) { sum += problem::dot(of_a.segment(block.first, block.size()), of_b.segment(block.first, block.size())); });
+}
+
+std::vector<double> OfParts::norm(const algebra::Field& v) const {
+  const Vector all = parts_.count == 1 ? Vector() : v.get();
+  return each(
+      [&] {
+        const double plain = std::sqrt(v.dot(v));
+        return moderate(plain) || (plain == 0 && v.greatest() == 0) ? plain : v.get().stableNorm();
+      },
+      [&](const Block& block, double& norm) { add(norm, all.segment(block.first, block.size())); });
+}
+
+std::vector<double> OfParts::greatest(const algebra::Field& v) const {
+  const Vector all = parts_.count == 1 ? Vector() : v.get();
+  return each([&] { return v.greatest(); }, [&](const Block& block, double& most) { most = std::max(most, all.segment(block.first, block.size()).lpNorm<Eigen::Infinity>()); });
 }
 
 namespace {
 
-/// About ‖|K||w|‖ and rarely less, without a pass over K: no entry is greater than the greatest on the diagonal.
-double size_of_gross_forces(const Block& block, const Vector& w) {
+/// About ‖|K||w|‖ for a w of this norm, and rarely less, without a pass over K: no entry is greater than the greatest on the diagonal.
+double size_of_gross_forces(const Block& block, double norm) {
   int entries = 0;
   if (block.K.slices()) entries = block.K.slices()->most_entries();
   else
     for (const int *outer = block.K.lower().outerIndexPtr(), *end = outer + block.size(); outer < end; ++outer) entries = std::max(entries, 2 * (outer[1] - outer[0]));
-  double size = 0;
-  add(size, w);
-  return block.K.greatest_on_diagonal() * entries * size;
+  return block.K.greatest_on_diagonal() * entries * norm;
 }
 
 void add_scales_of_others(std::vector<Sizes>& parts) {
@@ -95,29 +142,33 @@ void add_scales_of_others(std::vector<Sizes>& parts) {
 
 }  // namespace
 
-std::vector<Sizes> sizes(const Problem& problem, const State& state, const Forces& all, const Parts& parts) {
+std::vector<Sizes> sizes(const Problem& problem, const Forces& all, const Parts& parts) {
   std::vector<Sizes> result(static_cast<std::size_t>(parts.count));
-  const auto each_block = [&](const auto& visit) {
-    for (std::size_t b = 0; b < problem.blocks.size(); ++b) visit(problem.blocks[b], result[static_cast<std::size_t>(parts.of_block[b])]);
+  const OfParts of(problem, parts);
+  const auto take = [&](double Sizes::*size, const std::vector<double>& by_part) {
+    for (std::size_t p = 0; p < result.size(); ++p) result[p].*size = by_part[p];
   };
-  each_block([&](const Block& block, Sizes& part) {
-    const auto own = [&](const Vector& v) { return v.segment(block.first, block.size()); };
-    if (all.internal.size() > 0) add(part.internal, own(all.internal));
-    add(part.contact, own(all.contact)), add(part.load, block.f);
-    part.greatest_load = std::max(part.greatest_load, block.f.lpNorm<Eigen::Infinity>());
-    part.greatest_displacement = std::max(part.greatest_displacement, own(state.u).lpNorm<Eigen::Infinity>());
-  });
+  if (all.internal) take(&Sizes::internal, of.norm(*all.internal));
+  take(&Sizes::contact, of.norm(all.contact)), take(&Sizes::load, of.norm(all.load));
+  take(&Sizes::greatest_load, of.greatest(all.load)), take(&Sizes::greatest_displacement, of.greatest(*all.u));
   // Where half of the digits of K|u| are below this part of the forces of contact they need not be known.
   constexpr double kBelowForces = 0.01;
   const double half = std::sqrt(std::numeric_limits<double>::epsilon());
-  each_block([&](const Block& block, Sizes& part) {
-    if (part.load > 0) return;
-    const Vector u = state.u.segment(block.first, block.size());
-    if (half * size_of_gross_forces(block, u) < kBelowForces * part.contact) return;
-    const Vector gross = block.K.gross_times(u);
+  const bool all_loaded = std::ranges::all_of(result, [](const Sizes& part) { return part.load > 0; }), alone = problem.blocks.size() == 1;
+  const double moved = all_loaded || !alone ? 0 : of.norm(*all.u)[0];
+  const Vector u = all_loaded || alone ? Vector() : all.u->get();
+  for (std::size_t b = 0; b < problem.blocks.size() && !all_loaded; ++b) {
+    const Block& block = problem.blocks[b];
+    Sizes& part = result[static_cast<std::size_t>(parts.of_block[b])];
+    if (part.load > 0) continue;
+    double size = moved;
+    if (!alone) add(size, u.segment(block.first, block.size()));
+    if (half * size_of_gross_forces(block, size) < kBelowForces * part.contact) continue;
+    const Vector own = alone ? all.u->get() : Vector(u.segment(block.first, block.size()));
+    const Vector gross = block.K.gross_times(own);
     add(part.least_force, half * gross);
-    part.least_work += half * gross.dot(u.cwiseAbs());
-  });
+    part.least_work += half * gross.dot(own.cwiseAbs());
+  }
   add_scales_of_others(result);
   return result;
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include "problem/problem.hpp"
@@ -22,13 +24,31 @@ Parts parts(const Problem& problem);
 /// relative to this scale. Where no part is loaded, the greatest itself: all forces may vanish then.
 std::vector<double> least_beside_others(const std::vector<double>& of_part, bool loaded);
 
-/// Ku (empty where a pass over K is not worth it), Bᵀλ and f of all blocks.
+/// u of a state and its forces Ku (none where a pass over K is not worth it), Bᵀλ and f, which lie with the slices of K, or here.
 struct Forces {
-  algebra::Vector internal, contact, load;
+  std::shared_ptr<const algebra::Field> u;
+  std::optional<algebra::Field> internal;
+  algebra::Field contact, load;
 };
 
 Forces external_forces(const Problem& problem, const State& state);  ///< without Ku
 Forces forces(const Problem& problem, const State& state);
+
+/// Sums over the unknowns of each part.
+class OfParts {
+ public:
+  OfParts(const Problem& problem, const Parts& parts) : problem_(problem), parts_(parts) {}
+  std::vector<double> dot(const algebra::Field& a, const algebra::Field& b) const;
+  std::vector<double> norm(const algebra::Field& v) const;      ///< ‖v‖₂
+  std::vector<double> greatest(const algebra::Field& v) const;  ///< ‖v‖∞
+
+ private:
+  template <class OfAll, class OfBlock>
+  std::vector<double> each(const OfAll& of_all, const OfBlock& of_block) const;
+
+  const Problem& problem_;
+  const Parts& parts_;
+};
 
 /// What one part is measured by.
 struct Sizes {
@@ -44,7 +64,7 @@ struct Sizes {
 
 bool any_loaded(const std::vector<Sizes>& parts);
 /// By part.
-std::vector<Sizes> sizes(const Problem& problem, const State& state, const Forces& all, const Parts& parts);
+std::vector<Sizes> sizes(const Problem& problem, const Forces& all, const Parts& parts);
 
 /// a · b, on all cores.
 double dot(const Eigen::Ref<const algebra::Vector>& a, const Eigen::Ref<const algebra::Vector>& b);

@@ -73,6 +73,19 @@ Vector Problem::load() const {
   return f;
 }
 
+bool Problem::loaded() const {
+  return std::ranges::any_of(blocks, [](const Block& block) { return !block.f.isZero(0); });
+}
+
+std::vector<int> Problem::unknowns_of_rows() const {
+  std::vector<int> all;
+  for (int r = 0; r < B.rows(); ++r)
+    for (SparseRows::InnerIterator it(B, r); it; ++it) all.push_back(static_cast<int>(it.col()));
+  std::ranges::sort(all);
+  all.erase(std::ranges::unique(all).begin(), all.end());
+  return all;
+}
+
 void require_kernel(const algebra::SymmetricMatrix& K, const algebra::DenseMatrix& kernel, const std::string& name,
                     const std::vector<Motion>& motions) {
   // Between rounding (a few 1e-16, flat cells, great distances and near incompressibility included) and whatever holds a body.
@@ -184,11 +197,34 @@ Numbers times(const Problem& problem, const Numbers& u) {
 
 }  // namespace
 
-Vector stiffness_times(const Problem& problem, const Vector& u) {
+std::shared_ptr<algebra::Vectors> vectors(const Problem& problem, const std::vector<int>& watched) {
   const auto* all = slices(problem);
-  const auto vectors = all ? all->vectors({}) : algebra::vectors_here(problem.unknowns(), {});
-  algebra::LongField moved{algebra::Field(vectors), algebra::Field(vectors)};
-  algebra::Field force(vectors);
+  return all ? all->vectors(watched) : algebra::vectors_here(problem.unknowns(), watched);
+}
+
+std::shared_ptr<const algebra::Field> field(const Problem& problem, const Displacement& u) {
+  const auto* all = slices(problem);
+  if (u.there() && (!all || all->holds(*u.there()->where()))) return u.there();
+  algebra::Field field(vectors(problem));
+  field.put(u.here());
+  return std::make_shared<const algebra::Field>(std::move(field));
+}
+
+Vector jumps(const Problem& problem, const Displacement& u) {
+  if (!u.there()) return problem.B * u.here() - problem.c;
+  const std::vector<int> unknowns = problem.unknowns_of_rows();
+  const Vector near = u.there()->some(unknowns);
+  Vector x = -problem.c;
+  for (int r = 0; r < problem.rows(); ++r)
+    for (SparseRows::InnerIterator it(problem.B, r); it; ++it)
+      x[r] += it.value() * near[std::ranges::lower_bound(unknowns, static_cast<int>(it.col())) - unknowns.begin()];
+  return x;
+}
+
+Vector stiffness_times(const Problem& problem, const Vector& u) {
+  const auto place = vectors(problem);
+  algebra::LongField moved{algebra::Field(place), algebra::Field(place)};
+  algebra::Field force(place);
   moved.high.put(u);
   take_stiffness_times(problem, moved, true, force);
   return -force.get();

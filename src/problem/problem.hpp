@@ -9,6 +9,7 @@
 #include "base/motion.hpp"
 #include "problem/friction.hpp"
 #include "problem/law.hpp"
+#include "problem/state.hpp"
 #include "problem/subdomain.hpp"
 
 namespace dotyk::problem {
@@ -95,6 +96,8 @@ struct Problem {
   /// B's columns of one block, in the block's own numbering.
   algebra::SparseRows rows_of(const Block& block) const;
   algebra::Vector load() const;            ///< f of all blocks
+  bool loaded() const;                     ///< is one of its numbers not 0? Without a load nothing but rounding gives forces a scale
+  std::vector<int> unknowns_of_rows() const;  ///< those of B's entries, ascending
   std::string name_of(int row) const;      ///< by row_name, or "row 7"
 };
 
@@ -116,15 +119,17 @@ inline constexpr double kMostForceOnSubdomains = 1e175;
 /// Adds a block, setting its `first`. Throws as require_kernel().
 void add(Problem& problem, Block block);
 
-struct State {
-  algebra::Vector u;       ///< unknowns
-  algebra::Vector lambda;  ///< rows
-};
+/// Bu − c.
+algebra::Vector jumps(const Problem& problem, const Displacement& u);
 
 /// Gives each block its part of a stiffness of all of them that is in slices.
 void take_slices(Problem& problem, const std::shared_ptr<const algebra::SlicedMatrix>& slices);
 /// That stiffness; null where not all blocks have their part of one.
 const algebra::SlicedMatrix* slices(const Problem& problem);
+/// Vectors that lie with the slices, or here where there are none. `watched`: unknowns, ascending.
+std::shared_ptr<algebra::Vectors> vectors(const Problem& problem, const std::vector<int>& watched = {});
+/// u there.
+std::shared_ptr<const algebra::Field> field(const Problem& problem, const Displacement& u);
 
 /// The lower triangle of the stiffness of all blocks.
 algebra::SparseMatrix lower_stiffness(const Problem& problem);

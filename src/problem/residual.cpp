@@ -47,14 +47,9 @@ double natural_residual(const Problem& problem, const Vector& x, const Vector& l
 
 namespace {
 
-/// `internal`: Ku.
-double energy(const Problem& problem, const State& state, const Vector& internal) {
-  double e = 0;
-  for (const Block& block : problem.blocks) {
-    const auto u = state.u.segment(block.first, block.size());
-    e += block.offset + 0.5 * dot(u, internal.segment(block.first, block.size())) - dot(u, block.f);
-  }
-  const Vector x = problem.B * state.u - problem.c;
+double energy(const Problem& problem, const Forces& forces, const Vector& x) {
+  double e = 0.5 * forces.u->dot(*forces.internal) - forces.u->dot(forces.load);
+  for (const Block& block : problem.blocks) e += block.offset;
   for (const RowGroup& group : problem.groups)
     for (int r = group.first; r < group.first + group.count; ++r)
       e += group.law->energy(r - group.first, x[r]);
@@ -63,10 +58,10 @@ double energy(const Problem& problem, const State& state, const Vector& internal
 
 }  // namespace
 
-double energy(const Problem& problem, const State& state) { return energy(problem, state, stiffness_times(problem, state.u)); }
+double energy(const Problem& problem, const State& state) { return energy(problem, forces(problem, state), jumps(problem, state.u)); }
 
 double friction_energy(const Problem& problem, const State& state) {
-  const Vector x = problem.B * state.u - problem.c;
+  const Vector x = jumps(problem, state.u);
   double e = 0;
   for (const FrictionGroup& group : problem.friction)
     for (int k = 0; k < group.points(); ++k)
@@ -78,8 +73,7 @@ namespace {
 
 /// Forces of a state, and what the parts are measured by.
 struct Measured {
-  Measured(const Problem& problem, const State& state, Forces all)
-      : forces(std::move(all)), parts(problem::parts(problem)), sizes(problem::sizes(problem, state, forces, parts)) {}
+  Measured(const Problem& problem, Forces all) : forces(std::move(all)), parts(problem::parts(problem)), sizes(problem::sizes(problem, forces, parts)) {}
 
   Forces forces;
   Parts parts;
@@ -134,8 +128,9 @@ double unbalanced(const Block& block, const Vector& force, double gross) {
 
 MotionResidual motion_residual(const Problem& problem, const State& state) {
   constexpr double kRoundings = 4;  // of u itself and of the sums in Ku
-  const Measured m(problem, state, forces(problem, state));
-  const Vector gross = algebra::SparseRows(problem.B.cwiseAbs()).transpose() * state.lambda.cwiseAbs() + m.forces.load.cwiseAbs();
+  const Measured m(problem, forces(problem, state));
+  const Vector internal = m.forces.internal->get(), external = problem.B.transpose() * state.lambda - problem.load();
+  const Vector gross = algebra::SparseRows(problem.B.cwiseAbs()).transpose() * state.lambda.cwiseAbs() + problem.load().cwiseAbs();
   std::vector<double> beyond(m.sizes.size(), 0);
   MotionResidual result;
   double greatest = 0;
@@ -143,11 +138,11 @@ MotionResidual motion_residual(const Problem& problem, const State& state) {
     const Block& block = problem.blocks[b];
     const int part = m.parts.of_block[b];
     const auto own = [&](const Vector& v) { return v.segment(block.first, block.size()); };
-    const Vector force = own(m.forces.contact) - own(m.forces.load);
-    const double left = (own(m.forces.internal) + force).stableNorm();
+    const Vector force = own(external);
+    const double left = (own(internal) + force).stableNorm();
     double granted = 0;
     if (block.kernel.cols() > 0) {
-      granted = kRoundings * std::numeric_limits<double>::epsilon() * moved_forces(block, own(state.u));
+      granted = kRoundings * std::numeric_limits<double>::epsilon() * moved_forces(block, own(state.u.here()));
       result.resultants = std::max(result.resultants, unbalanced(block, force, std::max(own(gross).sum(), m.sizes[part].least_force)));
     }
     if (std::min(left, granted) > greatest) greatest = std::min(left, granted), result.most = static_cast<int>(b);
@@ -168,9 +163,10 @@ std::vector<double> yielding(const Problem& problem, const State& state, const P
   return force;
 }
 
-std::vector<Scales> scales(const Problem& problem, const State& state, const Measured& m) {
+/// `x`: Bu − c.
+std::vector<Scales> scales(const Problem& problem, const State& state, const Vector& x, const Measured& m) {
   std::vector<Scales> of_part(m.sizes.size());
-  const std::vector<double> forces = m.parts.greatest(state.lambda), jumps = m.parts.greatest(problem.B * state.u),
+  const std::vector<double> forces = m.parts.greatest(state.lambda), jumps = m.parts.greatest(x + problem.c),
                             least = yielding(problem, state, m.parts);
   for (std::size_t p = 0; p < of_part.size(); ++p) {
     const Sizes& part = m.sizes[p];
@@ -186,7 +182,7 @@ std::vector<Scales> scales(const Problem& problem, const State& state, const Mea
 double complementarity(const Problem& problem, const State& state, const Vector& x, const Measured& m) {
   const Parts& parts = m.parts;
   const std::vector<double> least = yielding(problem, state, parts);
-  std::vector<double> product(m.sizes.size(), 0), work = product, internal = product, external = product;
+  std::vector<double> product(m.sizes.size(), 0), work = product;
   for (std::size_t p = 0; p < work.size(); ++p) work[p] = m.sizes[p].least_work;
   for (int r = 0; r < problem.rows(); ++r) work[parts.of_row[r]] += std::abs(state.lambda[r]) * least[parts.of_row[r]];
   for (const RowGroup& group : problem.groups)
@@ -194,12 +190,9 @@ double complementarity(const Problem& problem, const State& state, const Vector&
       product[parts.of_row[r]] += std::abs(state.lambda[r] * x[r]);
       work[parts.of_row[r]] += std::abs(state.lambda[r] * problem.c[r]);
     }
-  for (std::size_t b = 0; b < problem.blocks.size(); ++b) {
-    const auto own = [&](const Vector& v) { return v.segment(problem.blocks[b].first, problem.blocks[b].size()); };
-    internal[parts.of_block[b]] += 0.5 * dot(own(state.u), own(m.forces.internal));
-    external[parts.of_block[b]] += dot(own(state.u), own(m.forces.load));
-  }
-  for (std::size_t p = 0; p < work.size(); ++p) work[p] += std::abs(internal[p]) + std::abs(external[p]);
+  const OfParts of(problem, parts);
+  const std::vector<double> internal = of.dot(*m.forces.u, *m.forces.internal), external = of.dot(*m.forces.u, m.forces.load);
+  for (std::size_t p = 0; p < work.size(); ++p) work[p] += std::abs(0.5 * internal[p]) + std::abs(external[p]);
   const std::vector<double> beside_others = least_beside_others(work, any_loaded(m.sizes));
   return greatest_ratio(product, [&](std::size_t p) { return m.sizes[p].load > 0 ? work[p] : std::max(work[p], beside_others[p]); });
 }
@@ -221,23 +214,19 @@ void add_laws(const Problem& problem, const State& state, const Vector& x, const
 }  // namespace
 
 std::vector<Scales> scales(const Problem& problem, const State& state) {
-  return scales(problem, state, Measured(problem, state, external_forces(problem, state)));
+  return scales(problem, state, jumps(problem, state.u), Measured(problem, external_forces(problem, state)));
 }
 
 Residual residual(const Problem& problem, const State& state) {
   Residual result;
-  const Measured m(problem, state, forces(problem, state));
-  result.energy = energy(problem, state, m.forces.internal);
-  Vector left(state.u.size());
-  parallel_parts(left.size(), [&](int first, int end) {
-    const auto own = [&](const Vector& v) { return v.segment(first, end - first); };
-    left.segment(first, end - first) = own(m.forces.internal) + own(m.forces.contact) - own(m.forces.load);
-  });
-  result.equilibrium = greatest_ratio(norms(problem, m.parts, [&](const Block& block) { return left.segment(block.first, block.size()); }),
-                                      [&](std::size_t p) { return m.sizes[p].force(); });
+  const Measured m(problem, forces(problem, state));
+  const Vector x = jumps(problem, state.u);
+  result.energy = energy(problem, m.forces, x);
+  algebra::Field left = *m.forces.internal;
+  left.add(1, m.forces.contact), left.add(-1, m.forces.load);
+  result.equilibrium = greatest_ratio(OfParts(problem, m.parts).norm(left), [&](std::size_t p) { return m.sizes[p].force(); });
   if (problem.rows() == 0) return result;
-  const Vector x = problem.B * state.u - problem.c;
-  add_laws(problem, state, x, scales(problem, state, m), result);
+  add_laws(problem, state, x, scales(problem, state, x, m), result);
   result.complementarity = complementarity(problem, state, x, m);
   result.friction = friction_violation(problem, state, m.parts);
   return result;
@@ -245,13 +234,13 @@ Residual residual(const Problem& problem, const State& state) {
 
 double distance_from_laws(const Problem& problem, const State& state) {
   Residual result;
-  if (problem.rows() > 0) add_laws(problem, state, problem.B * state.u - problem.c, scales(problem, state), result);
+  if (problem.rows() > 0) add_laws(problem, state, jumps(problem, state.u), scales(problem, state), result);
   return result.laws();
 }
 
 double rounding_of_equilibrium(const Problem& problem, const State& state) {
-  const Measured m(problem, state, forces(problem, state));
-  const auto gross = norms(problem, m.parts, [&](const Block& block) { return block.K.gross_times(state.u.segment(block.first, block.size())); });
+  const Measured m(problem, forces(problem, state));
+  const auto gross = norms(problem, m.parts, [&](const Block& block) { return block.K.gross_times(state.u.here().segment(block.first, block.size())); });
   return std::numeric_limits<double>::epsilon() *
          greatest_ratio(gross, [&](std::size_t p) { return m.sizes[p].internal + m.sizes[p].contact + m.sizes[p].load; });
 }
@@ -259,11 +248,11 @@ double rounding_of_equilibrium(const Problem& problem, const State& state) {
 Vector rounding_of_forces(const Problem& problem, const State& state) {
   if (problem.rows() == 0) return {};
   Vector gross(state.u.size());
-  for (const Block& block : problem.blocks) gross.segment(block.first, block.size()) = block.K.gross_times(state.u.segment(block.first, block.size()));
+  for (const Block& block : problem.blocks) gross.segment(block.first, block.size()) = block.K.gross_times(state.u.here().segment(block.first, block.size()));
   Vector rounding = std::numeric_limits<double>::epsilon() * (algebra::SparseRows(problem.B.cwiseAbs()) * gross);
   for (int r = 0; r < problem.rows(); ++r)
     if (const double square = problem.B.row(r).squaredNorm(); square > 0) rounding[r] /= square;
-  const Vector x = problem.B * state.u - problem.c;
+  const Vector x = jumps(problem, state.u);
   const std::vector<Scales> scale = scales(problem, state);
   for (const RowGroup& group : problem.groups)
     for (int r = group.first; group.law->unilateral() && r < group.first + group.count; ++r)

@@ -64,7 +64,7 @@ double error(const beam::Solution& s, const Hetenyi& exact) {
 double apart(const beam::Solution& a, const beam::Solution& b) {
   CHECK(a.result().converged);
   CHECK(b.result().converged);
-  return (a.result().state.u - b.result().state.u).lpNorm<Eigen::Infinity>() / b.result().state.u.lpNorm<Eigen::Infinity>();
+  return (a.result().state.u.here() - b.result().state.u.here()).lpNorm<Eigen::Infinity>() / b.result().state.u.here().lpNorm<Eigen::Infinity>();
 }
 
 double total(const beam::Solution& s) {

@@ -99,8 +99,8 @@ void check_near(const beam::Solution& s, const test::ExactBeam& exact) {
 }
 
 bool near(const beam::Solution& a, const beam::Solution& b) {
-  const auto& u = a.result().state.u;
-  const auto& v = b.result().state.u;
+  const auto& u = a.result().state.u.here();
+  const auto& v = b.result().state.u.here();
   return (u - v).norm() <= 1e-10 * u.norm();
 }
 

@@ -98,7 +98,7 @@ TEST_CASE("Signorini's edge: λ ≥ 0 ≥ x, and one of them 0, in every row") {
       const auto s = test::solved(p);
       REQUIRE(s->result().converged);
       const algebra::Vector& lambda = s->result().state.lambda;
-      const algebra::Vector x = s->model().problem.B * s->result().state.u - s->model().problem.c;
+      const algebra::Vector x = s->model().problem.B * s->result().state.u.here() - s->model().problem.c;
       CHECK(lambda.minCoeff() >= 0);
       CHECK(x.maxCoeff() < 1e-12);
       for (int r = 0; r < x.size(); ++r) CHECK(std::min(lambda[r], -x[r]) < 1e-12);

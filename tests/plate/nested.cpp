@@ -54,7 +54,7 @@ TEST_CASE("begun on few rows or on all: the same solution") {
         CHECK(a.reason.find("on a part of the rows") != std::string::npos);
         CHECK(b.reason.find("on a part of the rows") == std::string::npos);
         if (!b.converged) continue;  // that it may not end is why there is the other
-        CHECK((a.state.u - b.state.u).lpNorm<Eigen::Infinity>() < 1e-8 * b.state.u.lpNorm<Eigen::Infinity>());
+        CHECK((a.state.u.here() - b.state.u.here()).lpNorm<Eigen::Infinity>() < 1e-8 * b.state.u.here().lpNorm<Eigen::Infinity>());
         CHECK((a.state.lambda - b.state.lambda).lpNorm<Eigen::Infinity>() < 1e-6 * b.state.lambda.lpNorm<Eigen::Infinity>());
       }
 }

@@ -81,7 +81,7 @@ void check(const scene::Solution& s, const scene::Solution& exact) {
   REQUIRE_MESSAGE(s.result().converged, s.result().reason);
   const auto &mine = s.result().state, &right = exact.result().state;
   CHECK((mine.lambda - right.lambda).norm() <= 1e-9 * right.lambda.norm());
-  CHECK((mine.u - right.u).norm() <= 1e-9 * right.u.norm());
+  CHECK((mine.u.here() - right.u.here()).norm() <= 1e-9 * right.u.here().norm());
   CHECK(right.lambda.minCoeff() >= 0);
   for (std::size_t k = 0; k < s.scene().bodies.size(); ++k) {
     const auto left = test::imbalance(s, static_cast<int>(k));

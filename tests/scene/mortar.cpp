@@ -147,7 +147,7 @@ TEST_CASE("on matching nodes mortar is the nodal contact, with friction too") {
         Stack s = stack(dim, family, family, 4, 4, pairing, 0, true, coulomb);
         test::pull(s.high, "top", [](const Point& x) { return Point{0.2 + 0.4 * x[0], 0, 0}; });
         Monitor quiet;
-        u.push_back(scene::solve(s.scene, solver::Newton{}, {}, quiet)->result().state.u);
+        u.push_back(scene::solve(s.scene, solver::Newton{}, {}, quiet)->result().state.u.here());
       }
       CHECK((u[0] - u[1]).lpNorm<Eigen::Infinity>() < 1e-9 * u[0].lpNorm<Eigen::Infinity>());
     }
@@ -249,13 +249,13 @@ TEST_CASE("glue on nodes that do not match: linear displacements are exact") {
 
 TEST_CASE("every way to solve treats mortar rows alike") {
   const Stack s = stack(2, Family::p1, Family::p1, 8, 6, {});
-  const auto exact = test::solve(s.scene)->result().state.u;
+  const auto exact = test::solve(s.scene)->result().state.u.here();
   for (const bool reduced : {true, false})
-    CHECK((test::solve(s.scene, reduced)->result().state.u - exact).lpNorm<Eigen::Infinity>() < 1e-11 * exact.lpNorm<Eigen::Infinity>());
+    CHECK((test::solve(s.scene, reduced)->result().state.u.here() - exact).lpNorm<Eigen::Infinity>() < 1e-11 * exact.lpNorm<Eigen::Infinity>());
   Monitor quiet;
   const auto feti = scene::solve(s.scene, test::feti(4), {}, quiet);
   REQUIRE_MESSAGE(feti->result().converged, feti->result().reason);
-  CHECK((feti->result().state.u - exact).lpNorm<Eigen::Infinity>() < 1e-5 * exact.lpNorm<Eigen::Infinity>());  // its tolerance
+  CHECK((feti->result().state.u.here() - exact).lpNorm<Eigen::Infinity>() < 1e-5 * exact.lpNorm<Eigen::Infinity>());  // its tolerance
   CHECK(feti->contact(*s.contact).force[1] == doctest::Approx(kPressure).epsilon(1e-5));
 }
 

@@ -98,7 +98,7 @@ std::shared_ptr<scene::Solution> solve(const std::shared_ptr<scene::Scene>& s, c
 double difference(const algebra::Vector& a, const algebra::Vector& b) { return (a - b).norm() / b.norm(); }
 
 double distance(const scene::Solution& a, const scene::Solution& b) {
-  return std::max(difference(a.result().state.u, b.result().state.u),
+  return std::max(difference(a.result().state.u.here(), b.result().state.u.here()),
                   difference(a.result().state.lambda, b.result().state.lambda));
 }
 
@@ -184,7 +184,7 @@ TEST_CASE("penalty errs by O(1/factor), says so, and its estimate of the energy 
         const auto s = solve(c.scene, method);
         REQUIRE_MESSAGE(s->result().converged, s->result().reason);
         REQUIRE(s->result().penalty);
-        errors.push_back(difference(s->result().state.u, exact->result().state.u));
+        errors.push_back(difference(s->result().state.u.here(), exact->result().state.u.here()));
         const double off = exact->energy() - s->energy(), estimate = s->result().penalty->energy;
         const double rounding = 1e-11 * std::abs(exact->energy());
         CHECK(off >= estimate - rounding);

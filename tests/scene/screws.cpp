@@ -19,7 +19,7 @@ std::shared_ptr<scene::Solution> solve(const Case& c, const solver::Pdas& method
 }
 
 void agree(const scene::Solution& a, const scene::Solution& b) {
-  CHECK((a.result().state.u - b.result().state.u).norm() < 1e-8 * b.result().state.u.norm());
+  CHECK((a.result().state.u.here() - b.result().state.u.here()).norm() < 1e-8 * b.result().state.u.here().norm());
   CHECK((a.result().state.lambda - b.result().state.lambda).norm() < 1e-8 * b.result().state.lambda.norm());
 }
 

@@ -85,8 +85,8 @@ TEST_CASE("the energy balance of every step of a history") {
       double dissipated = 0;
       for (const auto& s : steps) {
         const auto& now = s->result().state;
-        const Vector du = now.u - u, Kdu = stiffness_times(p, du);
-        const double stored = 0.5 * (now.u + u).dot(Kdu);
+        const Vector du = now.u.here() - u, Kdu = stiffness_times(p, du);
+        const double stored = 0.5 * (now.u.here() + u).dot(Kdu);
         const double jump_work = 0.5 * (now.lambda + lambda).dot(p.B * du);
         const double scale = std::abs(load_work(*s, now.u));
         const double trapezoid = 0.5 * (load_work(*s, du) + (before ? load_work(*before, du) : 0));
@@ -94,7 +94,7 @@ TEST_CASE("the energy balance of every step of a history") {
         // Dissipation point by point.
         double D = 0;
         for (int row : friction_rows(s->model())) {
-          CHECK(std::abs(s->slip()[row] - (p.B * now.u)[row]) < 1e-12 * now.u.lpNorm<Eigen::Infinity>());
+          CHECK(std::abs(s->slip()[row] - (p.B * now.u.here())[row]) < 1e-12 * now.u.here().lpNorm<Eigen::Infinity>());
           const double increment = s->slip()[row] - slip[row];
           D += now.lambda[row] * increment;
         }
@@ -108,7 +108,7 @@ TEST_CASE("the energy balance of every step of a history") {
         CHECK(std::abs(s->contact(*r.contact).dissipated - dissipated) < 1e-11 * scale);
         double normal = 0;
         for (int row : s->model().contact_row[0]) {
-          const double x = (p.B * now.u)[row], was = (p.B * u)[row];
+          const double x = (p.B * now.u.here())[row], was = (p.B * u)[row];
           normal += now.lambda[row] * (x - was);
         }
         CHECK(normal >= -1e-11 * scale);
@@ -121,7 +121,7 @@ TEST_CASE("the energy balance of every step of a history") {
       CHECK(dissipated > 0);
       // Nothing changed in the last step but one: it dissipates nothing.
       CHECK(steps[6]->friction_energy() < 1e-12 * std::abs(steps[6]->energy()));
-      CHECK(steps[6]->result().state.u.isApprox(steps[5]->result().state.u, 1e-9));
+      CHECK(steps[6]->result().state.u.here().isApprox(steps[5]->result().state.u.here(), 1e-9));
     }
 }
 
@@ -137,7 +137,7 @@ TEST_CASE("the steps of a history share one factorisation, and each is what a so
     scene::Start start;
     start.after = alone;
     alone = scene::solve(r.scene, {}, start, quiet, {r.steps[k]});
-    CHECK((alone->result().state.u - steps[k]->result().state.u).norm() < 1e-10 * alone->result().state.u.norm());
+    CHECK((alone->result().state.u.here() - steps[k]->result().state.u.here()).norm() < 1e-10 * alone->result().state.u.here().norm());
     const auto whole = [](const scene::Solution& s) { return std::accumulate(s.dissipated().begin(), s.dissipated().end(), 0.0); };
     CHECK(std::abs(whole(*alone) - whole(*steps[k])) < 1e-10 * std::abs(alone->energy()));
   }

@@ -62,7 +62,7 @@ TEST_CASE("reduced and full PDAS take the same path to the same solution") {
     REQUIRE(a->result().converged);
     REQUIRE(b->result().converged);
     CHECK(a->result().active_sets == b->result().active_sets);
-    const auto &u = a->result().state.u, &v = b->result().state.u;
+    const auto &u = a->result().state.u.here(), &v = b->result().state.u.here();
     CHECK((u - v).norm() < 1e-9 * u.norm());
     const auto &l = a->result().state.lambda, &m = b->result().state.lambda;
     CHECK((l - m).norm() < 1e-9 * l.norm());

@@ -98,7 +98,7 @@ inline std::vector<Errors> central_errors(const scene::Scene& scene, const Veloc
     const double h = std::pow(10, -k);
     const auto above = solved_at(scene, V, h), below = solved_at(scene, V, -h);
     const auto slope = [&](const Vector& a, const Vector& b) -> Vector { return (a - b) / (2 * h); };
-    out.push_back({apart(slope(above->result().state.u, below->result().state.u), exact.u),
+    out.push_back({apart(slope(above->result().state.u.here(), below->result().state.u.here()), exact.u),
                    apart(slope(above->result().state.lambda, below->result().state.lambda), exact.lambda)});
   }
   return out;
@@ -112,7 +112,7 @@ inline std::vector<Errors> one_sided_errors(const scene::Scene& scene, const Vel
     const double h = std::pow(10, -k);
     const auto one = solved_at(scene, V, h), two = solved_at(scene, V, 2 * h);
     const auto slope = [&](const Vector& a, const Vector& b, const Vector& c) -> Vector { return (4 * b - 3 * a - c) / (2 * h); };
-    out.push_back({apart(slope(at->result().state.u, one->result().state.u, two->result().state.u), exact.u),
+    out.push_back({apart(slope(at->result().state.u.here(), one->result().state.u.here(), two->result().state.u.here()), exact.u),
                    apart(slope(at->result().state.lambda, one->result().state.lambda, two->result().state.lambda), exact.lambda)});
   }
   return out;

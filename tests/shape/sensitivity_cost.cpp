@@ -40,7 +40,7 @@ TEST_CASE("what derivatives cost" * doctest::skip()) {
     const double gradient = watch.lap();
     const auto moved = test::solved_at(*scene, V[0], 1e-4), back = test::solved_at(*scene, V[0], -1e-4);
     const double again = watch.lap() / 2;
-    CHECK(test::apart((moved->result().state.u - back->result().state.u) / 2e-4, derivatives[0].u) < 1e-6);
+    CHECK(test::apart((moved->result().state.u.here() - back->result().state.u.here()) / 2e-4, derivatives[0].u) < 1e-6);
     MESSAGE(solution->unknowns(), " unknowns, ", solution->rows(), " rows: solve ", solve, " s (at moved nodes ", again, "), setup ", setup,
             ", for each motion ", change, " + ", along, ", adjoint ", gradient, "; a motion costs 1/", again / (change + along), " of solving again");
     CHECK(std::abs(adjoint.along(changes[1]) - derivatives[1].u.dot(solution->model().problem.B.transpose() * solution->result().state.lambda)) <

@@ -117,7 +117,7 @@ TEST_CASE("a support's spring at the beginning of its law: weak contact with a c
   const int row = 3;
   const auto beyond = [&](double level) {
     const auto s = test::solved(before_springs(level));
-    return (s->model().problem.B * s->result().state.u)[row];
+    return (s->model().problem.B * s->result().state.u.here())[row];
   };
   double low = 5, at_low = beyond(low), high = 12, at_high = beyond(high);
   REQUIRE(at_low * at_high < 0);

@@ -32,7 +32,7 @@ void check_solution(const problem::Problem& p, const solver::Result& r, double l
   const double h = 1.0 / p.rows();
   for (int i = 0; i < p.rows(); ++i) {
     const double free = std::max(lift - i * h, 0.0);
-    CHECK(std::abs(r.state.u[i] - 0.5 * free * free) < h * h);
+    CHECK(std::abs(r.state.u.here()[i] - 0.5 * free * free) < h * h);
   }
 }
 

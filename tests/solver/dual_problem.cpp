@@ -59,7 +59,7 @@ TEST_CASE("the direct solution's multipliers balance, are optimal, and give its 
     const auto& torn = dual.torn();
     Vector v(torn.copies());
     for (int k = 0; k < torn.copies(); ++k)
-      v[k] = torn.unknown[k] < 0 ? torn.value[k] : direct.state.u[torn.unknown[k]];
+      v[k] = torn.unknown[k] < 0 ? torn.value[k] : direct.state.u.here()[torn.unknown[k]];
     Vector force(torn.B.cols());  // f − Kv where rows act
     double elsewhere = 0;
     for (const auto& piece : torn.pieces) {
@@ -78,15 +78,15 @@ TEST_CASE("the direct solution's multipliers balance, are optimal, and give its 
 
     // Optimality: (B̂v − ĉ) = −(Fλ − d̃) + G̃ᵀα, zero but for contact that is open, where λ is zero.
     Vector jump = Vector::Zero(dual.rows());
-    jump.head(p.rows()) = torn.scale.cwiseProduct(p.B * direct.state.u - p.c);
+    jump.head(p.rows()) = torn.scale.cwiseProduct(p.B * direct.state.u.here() - p.c);
     const Vector residual = dual.apply(lambda) - dual.d();
     CHECK(coarse.P(residual + jump).norm() < 1e-10 * residual.norm());
     CHECK(coarse.P(jump).norm() > 1e-3 * jump.norm());  // some contact is open
     const Vector own = dual.elastic(lambda);
     CHECK(test::relative(dual.jump(own), -residual) < 1e-9);  // λ is balanced
     const Vector u = dual.moved(own, coarse.amounts(jump - dual.jump(own)));
-    CHECK(test::relative(solver::average(torn, u), direct.state.u) < 1e-10);
-    CHECK(test::disagreement(torn, u) < 1e-10 * direct.state.u.lpNorm<Eigen::Infinity>());
+    CHECK(test::relative(solver::average(torn, u), direct.state.u.here()) < 1e-10);
+    CHECK(test::disagreement(torn, u) < 1e-10 * direct.state.u.here().lpNorm<Eigen::Infinity>());
   }
 }
 

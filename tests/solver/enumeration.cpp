@@ -100,7 +100,7 @@ TEST_CASE("where slip impends a load step has two solutions nearby or none: F2 o
     const auto all = solver::enumerate(one_node(3, -3 + d, -1), quiet);
     std::vector<Vector> near;
     for (const auto& s : all.solutions)
-      if (s.result.state.u.norm() < 0.1) near.push_back(s.result.state.u);
+      if (s.result.state.u.here().norm() < 0.1) near.push_back(s.result.state.u.here());
     REQUIRE(near.size() == (d > 0 ? 2 : 0));
     CHECK(all.solutions.size() == near.size() + 1);
     if (d < 0) continue;
@@ -153,17 +153,17 @@ namespace {
 /// Every convex combination of a family's ends solves; returns the ends' displacements.
 std::vector<Vector> check_family(const problem::Problem& p, const solver::Enumeration::Family& family) {
   std::vector<Vector> ends;
-  for (const auto& end : family.ends) ends.push_back(end.result.state.u);
+  for (const auto& end : family.ends) ends.push_back(end.result.state.u.here());
   for (int k = 0; k <= 10; ++k) {
     problem::State state{Vector::Zero(p.unknowns()), Vector::Zero(p.rows())};
     for (std::size_t e = 0; e < family.ends.size(); ++e) {
       const double part = family.ends.size() == 1 ? 1 : (e == 0 ? 0.1 * k : (1 - 0.1 * k) / static_cast<double>(family.ends.size() - 1));
-      state.u += part * family.ends[e].result.state.u;
+      state.u.change() += part * family.ends[e].result.state.u.here();
       state.lambda += part * family.ends[e].result.state.lambda;
     }
     CHECK(problem::residual(p, state).equilibrium < 1e-12);
     // Forces and displacements are of size 1, and vanish at ends: ‖λ − P(λ + x)‖ as it is.
-    const double force = state.lambda.norm(), off = problem::natural_residual(p, p.B * state.u - p.c, state.lambda, Vector::Ones(p.rows()));
+    const double force = state.lambda.norm(), off = problem::natural_residual(p, p.B * state.u.here() - p.c, state.lambda, Vector::Ones(p.rows()));
     CHECK(off * (force > 0 ? force : 1) < 1e-12);
   }
   return ends;
@@ -213,9 +213,9 @@ TEST_CASE("a triangle on a floor, μ = 3, slips by any amount between sticking a
     REQUIRE(all.families.size() == 1);
     REQUIRE(all.families[0].ends.size() == 2);
     for (const auto& end : all.families[0].ends) {
-      CHECK(std::abs(std::abs(end.result.state.u[0] - 1) - 1) < 1e-12);
+      CHECK(std::abs(std::abs(end.result.state.u.here()[0] - 1) - 1) < 1e-12);
       const double force = std::max(end.result.state.lambda.norm(), 1e-3 * unit);
-      const double off = problem::natural_residual(p, p.B * end.result.state.u - p.c, end.result.state.lambda, Vector::Constant(2, unit));
+      const double off = problem::natural_residual(p, p.B * end.result.state.u.here() - p.c, end.result.state.lambda, Vector::Constant(2, unit));
       CHECK(off * (end.result.state.lambda.norm() > 0 ? end.result.state.lambda.norm() : 1) < 1e-12 * force);
     }
   }

@@ -32,7 +32,7 @@ struct Imbalance {
 inline Imbalance imbalance(const scene::Solution& s, int body) {
   const problem::Problem& p = s.model().problem;
   const problem::Block& b = p.blocks[body];
-  const algebra::Vector u = s.result().state.u.segment(b.first, b.size());
+  const algebra::Vector u = s.result().state.u.here().segment(b.first, b.size());
   const algebra::Vector contact = algebra::SparseRows(p.rows_of(b)).transpose() * s.result().state.lambda;
   const algebra::Vector elastic = b.K.lower().selfadjointView<Eigen::Lower>() * u, left = b.f - contact;
   Imbalance worst;

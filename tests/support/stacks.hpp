@@ -33,7 +33,7 @@ inline void touch(Stack& s, bool upper_first = true, const scene::Friction& fric
 inline void agree(const scene::Solution& a, const scene::Solution& b, double tolerance) {
   REQUIRE_MESSAGE(a.result().converged, a.result().reason);
   REQUIRE_MESSAGE(b.result().converged, b.result().reason);
-  CHECK((a.result().state.u - b.result().state.u).norm() <= tolerance * b.result().state.u.norm());
+  CHECK((a.result().state.u.here() - b.result().state.u.here()).norm() <= tolerance * b.result().state.u.here().norm());
 }
 
 }  // namespace dotyk::test

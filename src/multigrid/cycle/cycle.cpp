@@ -105,6 +105,14 @@ bool Cycle::set(const Change& change) {
   return true;
 }
 
+void Cycle::interpolate(const std::vector<double>& coarse, std::vector<double>& fine) {
+  const Level& level = levels_.front();
+  std::ranges::copy(coarse, static_cast<double*>(Numbers(level.coarse)));
+  check(MatMult(hierarchy_.interpolation(0), level.coarse, level.left));
+  const ReadNumbers of_left(level.left);
+  std::copy_n(of_left + 0, fine.size(), fine.begin());
+}
+
 bool Cycle::stopped(Monitor* monitor, Solution& solution) const {
   int stop = 0;
   try {

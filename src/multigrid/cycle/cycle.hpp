@@ -28,6 +28,9 @@ class Cycle {
   /// rate of convergence may foretell. `monitor`: rank 0's, which each iteration asks, null on the others; where it throws, all stop.
   Solution solve(const std::vector<double>& b, double tolerance, double most, Monitor* monitor, std::vector<double>& x, std::vector<double>& left);
 
+  /// fine = P coarse, P the functions of the next coarser mesh. Of this rank's rows of both.
+  void interpolate(const std::vector<double>& coarse, std::vector<double>& fine);
+
   int levels() const { return hierarchy_.levels(); }
   double bytes() const { return bytes_; }  ///< of all ranks, after the last set()
 

@@ -162,6 +162,12 @@ struct Kernel {
 DOTYK_CLONES void multiply_of_three(const HalfBlocks<double>& A, double* x, double* y) { Kernel<3, double>{A}.multiply(x, y); }
 DOTYK_CLONES void forward_of_three(const HalfBlocks<float>& A, const double* inverse, double* x, double* left) { Kernel<3, float>{A}.forward(inverse, x, left); }
 DOTYK_CLONES void backward_of_three(const HalfBlocks<float>& A, const double* inverse, double* b, double* x) { Kernel<3, float>{A}.backward(inverse, b, x); }
+DOTYK_CLONES void some_forward_of_three(const HalfBlocks<float>& rows, std::span<const int> nodes, const double* inverse, double* x, double* left, double* moved) {
+  Kernel<3, float>{rows}.forward(nodes, inverse, x, left, moved);
+}
+DOTYK_CLONES void some_backward_of_three(const HalfBlocks<float>& rows, std::span<const int> nodes, const double* inverse, double* b, double* beyond, double* x) {
+  Kernel<3, float>{rows}.backward(nodes, inverse, b, beyond, x);
+}
 
 }  // namespace
 
@@ -232,10 +238,12 @@ void sweep_backward(const HalfBlocks<float>& A, const double* inverse, PaddedVec
 }
 
 void sweep_forward(const HalfBlocks<float>& rows, std::span<const int> nodes, const double* inverse, PaddedVector& x, PaddedVector& left, PaddedVector& moved) {
+  if (rows.size == 3) return some_forward_of_three(rows, nodes, inverse, x.data(), left.data(), moved.data());
   dispatch(rows.size, [&]<int count>() { Kernel<count, float>{rows}.forward(nodes, inverse, x.data(), left.data(), moved.data()); });
 }
 
 void sweep_backward(const HalfBlocks<float>& rows, std::span<const int> nodes, const double* inverse, PaddedVector& b, PaddedVector& beyond, PaddedVector& x) {
+  if (rows.size == 3) return some_backward_of_three(rows, nodes, inverse, b.data(), beyond.data(), x.data());
   dispatch(rows.size, [&]<int count>() { Kernel<count, float>{rows}.backward(nodes, inverse, b.data(), beyond.data(), x.data()); });
 }
 

@@ -121,12 +121,12 @@ ContactResult Solution::contact(const Contact& asked) const {
     ContactNode node;
     node.node = row.node;
     node.x = scene_->bodies[first]->mesh->point(row.node);
-    node.displacement = mesh::at_node(displacement_[first], row.node, dim);
+    node.displacement = mesh::at_node(displacement(first), row.node, dim);
     node.normal = row.normal;
     node.weight = row.weight;
     if (contact.pairing == contact::Pairing::mortar) node.x = acting_at(*scene_->bodies[first]->mesh, row);
-    const Point other = second >= 0 ? contact::mean(row.partners, displacement_[second], dim) : model_.move[index];
-    const Point jump = mesh::minus(contact::mean(row.own, displacement_[first], dim), other);
+    const Point other = second >= 0 ? contact::mean(row.partners, displacement(second), dim) : model_.move[index];
+    const Point jump = mesh::minus(contact::mean(row.own, displacement(first), dim), other);
     const double normal_jump = mesh::dot(row.normal, jump);
     node.gap = row.gap - normal_jump;
     for (int i = 0; i < 3; ++i) node.slip[i] = jump[i] - normal_jump * row.normal[i];

@@ -123,7 +123,7 @@ ErrorEstimate Solution::make_error_estimate() const {
                             "points of superconvergence to recover better ones from: compare with a finer mesh (solution:distance)"));
   const auto count = static_cast<int>(scene_->bodies.size());
   std::vector<Boundary> boundary;
-  for (int b = 0; b < count; ++b) boundary.emplace_back(body(b), model_.numbering[b], displacement_[b]);
+  for (int b = 0; b < count; ++b) boundary.emplace_back(body(b), model_.numbering[b], displacement(b));
   std::vector<std::optional<ContactResult>> results;
   for (const auto& contact : scene_->contacts) {
     const int first = scene_->index_of(contact->first.body.get()), second = scene_->index_of(contact->second.body.get());
@@ -149,10 +149,10 @@ ErrorEstimate Solution::make_error_estimate() const {
     require_squares(own.material, own.mesh->cell_count(), stress(b));
     for (const LawSupport& on : own.laws)
       add_laws(*own.mesh, on, support({scene_->bodies[b], on.part.name, on.facets}), boundary[b]);
-    auto of_body = elasticity::estimate_error(*own.mesh, own.material, displacement_[b], cell_forces(own), boundary[b].all(),
+    auto of_body = elasticity::estimate_error(*own.mesh, own.material, displacement(b), cell_forces(own), boundary[b].all(),
                                               own.material.varies() ? nullptr : &stress(b));
     estimate.cells.push_back(std::move(of_body.cells));
-    solution += squared_energy_norm(*this, b, displacement_[b]);
+    solution += squared_energy_norm(*this, b, displacement(b));
   }
   for (std::size_t c = 0; c < results.size(); ++c) {
     if (!results[c]) continue;

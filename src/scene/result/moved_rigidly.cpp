@@ -41,12 +41,12 @@ std::shared_ptr<Solution> moved_rigidly(const Solution& solution, int body, cons
   const double held = block.kernel.cols() > 0 ? (block.kernel * amounts - w).lpNorm<Eigen::Infinity>() : w.lpNorm<Eigen::Infinity>();
   if (held > kRounding * most) throw InputError(text("supports hold '", block.name, "' elastically against this motion"));
   problem::State state = solution.result().state;
-  state.u.segment(block.first, block.size()) += w;
+  state.u.change().segment(block.first, block.size()) += w;
   const double off = problem::distance_from_laws(problem, state);
   if (!(off <= solution.result().noise))
     throw InputError(text("contacts or laws do not allow it: moved by this, '", block.name, "' is ", off, " off its laws (relative; rounding leaves ",
                           solution.result().noise, "). Solutions that differ by a motion say so in their reason"));
-  return solution.with(std::move(state.u));
+  return solution.with(state.u.here());
 }
 
 }  // namespace dotyk::scene

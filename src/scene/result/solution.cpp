@@ -30,7 +30,7 @@ constexpr double kNarrow = 1.5;
 void open_without_force(const problem::Problem& problem, solver::Result& result) {
   if (result.active_sets.empty()) return;
   const Vector& lambda = result.state.lambda;
-  const Vector x = problem.B * result.state.u - problem.c;
+  const Vector x = problem::jumps(problem, result.state.u);
   const Vector none = problem::small_forces(problem, lambda, kOnBound);
   const Vector compliance = problem.row_compliance();
   const std::vector<problem::Scales> scales = problem::scales(problem, result.state);
@@ -69,7 +69,7 @@ std::string resisted_by_cells(const Scene& scene, const Model& model, const prob
 
 /// As solver::settle(). A rotation that contact no wider than its cells resists is named as well. Contact rows whose pressure is rounding
 /// are open.
-void settle(const Scene& scene, const Model& model, const problem::Problem& problem, const Vector& before, solver::Result& result) {
+void settle(const Scene& scene, const Model& model, const problem::Problem& problem, const problem::Displacement& before, solver::Result& result) {
   if (!result.converged || problem.rows() == 0) return;
   const problem::FreeMotions free = solver::settle(problem, before, result);
   if (free.count == 0) result.reason += resisted_by_cells(scene, model, problem, free, result.state.lambda);
@@ -77,9 +77,9 @@ void settle(const Scene& scene, const Model& model, const problem::Problem& prob
 }
 
 /// What a displacement that is not unique shall be near to: the step before, at the beginning rest; u itself where that step is not at hand.
-Vector state_before(const Past& past, const Vector& u) {
+problem::Displacement state_before(const Past& past, const problem::Displacement& u) {
   if (!past.steps.empty()) return past.steps.back()->result().state.u;
-  return past.slip.size() > 0 ? u : Vector(Vector::Zero(u.size()));
+  return past.slip.size() > 0 ? u : problem::Displacement();
 }
 
 }  // namespace
@@ -102,7 +102,7 @@ Solution::Solution(std::shared_ptr<const Scene> scene, Model model, const proble
 
 void Solution::take_state(const problem::Problem& problem) {
   friction_energy_ = problem::friction_energy(problem, result_.state);
-  const Vector x = problem.B * result_.state.u - problem.c;
+  const Vector x = problem::jumps(problem, result_.state.u);
   slip_ = past_.slip.size() ? past_.slip : Vector::Zero(x.size());
   dissipated_ = past_.dissipated.empty() ? std::vector<double>(x.size(), 0.0) : past_.dissipated;
   for (const problem::FrictionGroup& group : problem.friction)
@@ -110,9 +110,7 @@ void Solution::take_state(const problem::Problem& problem) {
       slip_[r] += x[r];
       dissipated_[r] += result_.state.lambda[r] * x[r];
     }
-  displacement_.clear();
-  for (std::size_t b = 0; b < scene_->bodies.size(); ++b)
-    displacement_.push_back(model_.displacement(static_cast<int>(b), result_.state.u));
+  displacement_.assign(scene_->bodies.size(), {});
 }
 
 Solution::Solution(const Solution& other, Vector u)
@@ -120,6 +118,11 @@ Solution::Solution(const Solution& other, Vector u)
   result_.state.u = std::move(u);
   residual_ = problem::residual(model_.problem, result_.state);
   take_state(model_.problem);
+}
+
+const std::vector<double>& Solution::displacement(int body) const {
+  if (displacement_[body].empty()) displacement_[body] = model_.displacement(body, result_.state.u);
+  return displacement_[body];
 }
 
 std::shared_ptr<Solution> Solution::with(Vector u) const { return std::shared_ptr<Solution>(new Solution(*this, std::move(u))); }
@@ -134,7 +137,7 @@ const std::vector<elasticity::Stress>& Solution::stress(int body) const {
   if (stress_[body].empty()) {
     Stopwatch watch;
     const Body& b = this->body(body);
-    stress_[body] = elasticity::nodal_stress(*b.mesh, b.material, displacement_[body]);
+    stress_[body] = elasticity::nodal_stress(*b.mesh, b.material, displacement(body));
     result_.clock.recover += watch.seconds();
     result_.clock.total += watch.seconds();
   }
@@ -153,7 +156,7 @@ Point Solution::displacement(int body, const Point& x) const {
   const Place at = place(body, x);
   Point u{0, 0, 0};
   for (int a = 0; a < b.mesh->topology().nodes; ++a)
-    u = mesh::plus(u, mesh::times(at.shape[a], mesh::at_node(displacement_[body], b.mesh->cell(at.cell)[a], b.dimension())));
+    u = mesh::plus(u, mesh::times(at.shape[a], mesh::at_node(displacement(body), b.mesh->cell(at.cell)[a], b.dimension())));
   return u;
 }
 

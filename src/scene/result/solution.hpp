@@ -131,8 +131,8 @@ class Solution : public std::enable_shared_from_this<Solution> {
   int unknowns() const { return static_cast<int>(result_.state.u.size()); }
   int rows() const { return static_cast<int>(result_.state.lambda.size()); }
 
-  /// Nodal displacement of a body (index in the scene), node × dimension.
-  const std::vector<double>& displacement(int body) const { return displacement_[body]; }
+  /// Nodal displacement of a body (index in the scene), node × dimension; made on first use.
+  const std::vector<double>& displacement(int body) const;
   /// Recovered nodal stress, computed on first use (its time is added to the clock's recover and total).
   const std::vector<elasticity::Stress>& stress(int body) const;
 
@@ -179,7 +179,7 @@ class Solution : public std::enable_shared_from_this<Solution> {
   Past past_;
   algebra::Vector slip_;
   std::vector<double> dissipated_;
-  std::vector<std::vector<double>> displacement_;
+  mutable std::vector<std::vector<double>> displacement_;
   mutable std::vector<std::vector<elasticity::Stress>> stress_;
   mutable std::vector<std::optional<Locator>> locators_;
   mutable std::optional<ErrorEstimate> error_estimate_;

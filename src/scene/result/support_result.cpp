@@ -61,7 +61,7 @@ SupportNode Solution::support_node(const LawSupport& support, std::size_t k, con
   const Body& body = this->body(index);
   const algebra::Vector& lambda = result_.state.lambda;
   SupportNode node{side.node, body.mesh->point(side.node), side.normal, side.weight};
-  const Point u = contact::mean(side.own, displacement_[index], body.dimension());
+  const Point u = contact::mean(side.own, displacement(index), body.dimension());
   node.away = -dot(u, side.normal);
   const Point load = law_load(support, side, body.dimension()), force = law_force(side, rows, lambda);
   for (int i = 0; i < 3; ++i) node.slip[i] = u[i] + node.away * side.normal[i];
@@ -87,7 +87,7 @@ Point Solution::reaction(const Part& part) const {
   const PartMark mark = part.mark();
   // What supports must add to loads and contact to balance the inner forces.
   std::vector<double> missing =
-      elasticity::internal_force(*body.mesh, body.material, body.facet_springs(), displacement_[index]);
+      elasticity::internal_force(*body.mesh, body.material, body.facet_springs(), displacement(index));
   std::vector<double> other = body.force;
   for (const HeldEntry& entry : model_.held)
     if (entry.body == index) other[entry.component] -= entry.value * result_.state.lambda[entry.row];
@@ -115,7 +115,7 @@ Point Solution::reaction(const Part& part) const {
       for (int i = 0; i < dim; ++i)
         for (int a = 0; a < p.nodes; ++a)
           sum[i] -= patch.spring.stiffness[p.index][i] * p.measure * p.shape[a] *
-                    displacement_[index][static_cast<std::size_t>(body.mesh->facet_node(patch.spring.facet, a)) * dim + i];
+                    displacement(index)[static_cast<std::size_t>(body.mesh->facet_node(patch.spring.facet, a)) * dim + i];
     });
   }
   return sum;

@@ -119,7 +119,7 @@ std::vector<Acting> may_depend(const Solution& solution) {
     for (const contact::ContactRow& row : contact->rows)
       for (const auto& node : nodes(*contact, row)) ++count[node];
   const problem::Problem& problem = solution.model().problem;
-  const algebra::Vector x = problem.B * solution.result().state.u - problem.c;
+  const algebra::Vector x = problem::jumps(problem, solution.result().state.u);
   const std::vector<problem::Scales> scales = problem::scales(problem, solution.result().state);
   // A point of friction without slip may bear less, though it bears all that it can.
   const auto rests = [&](int r) { return std::abs(x[r]) <= 1e-8 * scales[static_cast<std::size_t>(r)].length; };

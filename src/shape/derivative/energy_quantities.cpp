@@ -68,7 +68,7 @@ double energy_derivative(const scene::Solution& solution, const Velocities& velo
   scene::require_differentiable(solution.scene(), velocities);
   const RowChanges rows = row_changes(solution, velocities);
   const problem::State& state = solution.result().state;
-  double sum = friction(problem, problem.B * state.u - problem.c, rows.bound) - state.lambda.dot(rows.c);
+  double sum = friction(problem, problem::jumps(problem, state.u), rows.bound) - state.lambda.dot(rows.c);
   for (std::size_t b = 0; b < velocities.size(); ++b) {
     if (velocities[b].empty()) continue;
     const int body = static_cast<int>(b);

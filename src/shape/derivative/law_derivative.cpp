@@ -45,7 +45,7 @@ Nothing nothing(const Problem& problem, const Vector& lambda, const Vector& x, d
 class Branches {
  public:
   Branches(const Problem& problem, const problem::State& state, double touching, double force_error)
-      : problem_(problem), lambda_(state.lambda), x_(problem.B * state.u - problem.c),
+      : problem_(problem), lambda_(state.lambda), x_(problem::jumps(problem, state.u)),
         nothing_(nothing(problem, lambda_, x_, touching, force_error)), unknown_(problem.rows(), -1), weak_(problem.rows(), 0) {}
 
   LawDerivative operator()() {

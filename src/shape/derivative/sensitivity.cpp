@@ -50,7 +50,7 @@ Sensitivity::Sensitivity(std::shared_ptr<const scene::Solution> solution, std::s
   require_differentiable();
   const Problem& problem = solution_->model().problem;
   const problem::State& state = solution_->result().state;
-  const double error = problem::natural_residual(problem, problem.B * state.u - problem.c, state.lambda, problem.row_stiffness());
+  const double error = problem::natural_residual(problem, problem::jumps(problem, state.u), state.lambda, problem.row_stiffness());
   law_ = law_derivative(problem, state, settings.touching, kResiduals * error * state.lambda.norm());
   if (!condenser_) condenser_ = std::make_shared<problem::Condenser>();
   rigid_ = problem::rigid_motions(problem);
@@ -70,7 +70,7 @@ void Sensitivity::require_differentiable() const {
   for (const problem::Block& block : problem.blocks)
     if (block.K.rows() != block.size())
       throw InputError("the solution is an earlier step of a history, whose stiffness is not kept; derivatives are those of the last step");
-  const Vector x = problem.B * result.state.u - problem.c, before = solution_->slip() - x;
+  const Vector x = problem::jumps(problem, result.state.u), before = solution_->slip() - x;
   for (const problem::FrictionGroup& group : problem.friction)
     for (int i = group.first; i < group.first + group.points() * group.components; ++i)
       if (std::abs(before[i]) > 1e-12 * std::abs(solution_->slip()[i]))

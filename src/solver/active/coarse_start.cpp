@@ -63,7 +63,7 @@ CoarseStart coarse_start(const Problem& problem, const Pdas& settings, Monitor& 
   if (!result.converged) return start;
   start.meshes = meshes;
   rows.extend(result);
-  start.state = std::make_shared<problem::State>(coarse.prolonged(result.state));
+  start.state = std::make_shared<problem::State>(start.stiffness->interpolated(coarse, result.state.u), coarse.finer_forces(result.state.lambda));
   return start;
 }
 

@@ -68,11 +68,10 @@ class HeldStep final : public Step {
     return finite_ && tie() && tell(lambda, x);
   }
 
-  void begin(const Vector& u) override {
-    const Vector noticed = stiffness_.without_unnoticed(u);
-    u_.high.put(noticed), u_.low = stiffness_.field();
-    near_u_ = noticed(stiffness_.near_rows()).cast<long double>();
-    finite_ = noticed.allFinite();
+  void begin(const problem::Displacement& u) override {
+    u_ = {stiffness_.noticed(u), stiffness_.field()};
+    near_u_ = u_.high.watched().cast<long double>();
+    finite_ = std::isfinite(u_.high.moduli());
     forget();
   }
 
@@ -88,7 +87,7 @@ class HeldStep final : public Step {
     finite_ = std::isfinite(u_.high.moduli());
     forget();
   }
-  Vector recover() override { return u_.high.get(); }
+  problem::Displacement recover() override { return problem::Displacement(u_.high); }
 
  private:
   /// How exact elastic forces are: a product in double precision, or one in extended precision that is rounded to double at the end.

@@ -9,6 +9,7 @@
 #include "algebra/dense/generalised_inverse.hpp"
 #include "algebra/entries_of.hpp"
 #include "base/text.hpp"
+#include "problem/coarser.hpp"
 
 namespace dotyk::solver {
 
@@ -220,8 +221,7 @@ void HeldStiffness::take_near_rows() {
   algebra::with_columns(problem_.B, place_, jumps_), algebra::with_columns(rows_, place_, near_jumps_);
   if (basis_.signs.size() > 0) near_basis_.signs = basis_.signs(near_);
   if (!basis_.of_signs()) near_basis_.T = algebra::part_of(basis_.T, place_, near_);
-  const auto* slices = problem::slices(problem_);
-  vectors_ = slices ? slices->vectors(near_) : algebra::vectors_here(problem_.unknowns(), near_);
+  vectors_ = problem::vectors(problem_, near_);
 }
 
 void HeldStiffness::empty_held(Vector& near) const {
@@ -274,8 +274,22 @@ HeldStiffness::Displaced HeldStiffness::solve_in_basis(Field& elsewhere, Vector 
   }
   out.near_u = near_basis_.displacements(moved);
   out.u.set_watched(out.near_u);
-  if (unnoticed_.cols() > 0) out.u.put(without_unnoticed(out.u.get())), out.near_u = out.u.watched();
+  if (unnoticed_.cols() > 0) out.u = noticed(problem::Displacement(std::move(out.u))), out.near_u = out.u.watched();
   return out;
+}
+
+Field HeldStiffness::field(const problem::Displacement& u) const {
+  if (u.there() && u.there()->where() == vectors_) return *u.there();
+  Field all = field();
+  all.put(u.here());
+  return all;
+}
+
+problem::Displacement HeldStiffness::interpolated(const problem::Coarser& coarse, const problem::Displacement& u) const {
+  Field finer = field();
+  if (!u.there() || !solver_->interpolate(*u.there(), finer)) return coarse.finer_displacement(u);
+  finer.set_watched(near_basis_.displacements(finer.watched()));
+  return problem::Displacement(std::move(finer));
 }
 
 Vector HeldStiffness::solve(const Vector& b) const {

@@ -11,6 +11,10 @@
 #include "problem/rigid_motions.hpp"
 #include "problem/row_basis.hpp"
 
+namespace dotyk::problem {
+struct Coarser;
+}
+
 namespace dotyk::solver {
 
 /// What a solver by multigrid leaves for nested iteration.
@@ -82,6 +86,10 @@ class HeldStiffness {
   /// `spring`: s, force per displacement, rows; `held`: one flag an unknown of the basis, of those of rows and of fixing_noticed() alone; `added`: to the
   /// matrix, lower triangle, of the unknowns of rows of one point. False where the matrix is not positive definite.
   bool factor(const algebra::Vector& spring, const std::vector<char>& held, const std::vector<Eigen::Triplet<double>>& added = {});
+  /// A displacement there.
+  algebra::Field field(const problem::Displacement& u) const;
+  /// The displacement that one of the next coarser meshes is on this one. Before anything is held.
+  problem::Displacement interpolated(const problem::Coarser& coarse, const problem::Displacement& u) const;
   /// What forces displace.
   struct Displaced {
     bool found = true;                ///< else u has no meaning: the solver is direct, or the forces are no numbers
@@ -102,7 +110,7 @@ class HeldStiffness {
   /// A few unknowns: where they are held, the bodies cannot move in a way that rows notice.
   const std::vector<int>& fixing_noticed() const { return fixing_noticed_; }
   /// u without the motions that no row notices: solve() gives none of them.
-  algebra::Vector without_unnoticed(const algebra::Vector& u) const { return problem::least(unnoticed_, u); }
+  algebra::Field noticed(const problem::Displacement& u) const { return unnoticed_.cols() > 0 ? field(problem::least(unnoticed_, u.here())) : field(u); }
 
   const algebra::SpdSolver& solver() const { return *solver_; }
 

@@ -96,7 +96,7 @@ void come_to_rest(SetIteration& it) {
   const problem::Problem& problem = it.problem;
   const Noise before = it.noise(it.lambda, it.x);
   if (it.lambda.size() == 0) return;
-  if (!loaded(problem) && (it.lambda.cwiseAbs() - before.force).maxCoeff() <= 0) {  // there is no scale to rest by
+  if (!problem.loaded() && (it.lambda.cwiseAbs() - before.force).maxCoeff() <= 0) {  // there is no scale to rest by
     if ((problem.c + before.gap).minCoeff() >= 0) it.lambda.setZero(), it.x = -problem.c, it.settled = Vector::Zero(problem.unknowns());
     return;
   }

@@ -43,7 +43,7 @@ class ReducedStep final : public Step {
     return true;
   }
 
-  Vector recover() override { return condensed_.recover(lambda_, alpha_); }
+  problem::Displacement recover() override { return condensed_.recover(lambda_, alpha_); }
 
  private:
   bool solve_definite(const DenseMatrix& H, const DenseMatrix& N, const Vector& g, const Vector& e,

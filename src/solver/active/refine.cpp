@@ -23,7 +23,7 @@ Vector out_of_balance(const Problem& problem, const State& state) {
 
 /// Newton's step from this state; nothing where the derivative is singular.
 std::optional<State> step(const Problem& problem, const CondensedProblem& condensed, const State& from) {
-  const Vector balanced = from.u + condensed.response(out_of_balance(problem, from), Vector::Zero(condensed.kernel_size()));
+  const Vector balanced = from.u.here() + condensed.response(out_of_balance(problem, from), Vector::Zero(condensed.kernel_size()));
   const Vector x = problem.B * balanced - problem.c;
   const CondensedProblem missing = condensed.missing(from.lambda, x);
   const NaturalMap map(problem, missing, stiffness_of_rows(condensed));
@@ -35,7 +35,7 @@ std::optional<State> step(const Problem& problem, const CondensedProblem& conden
   const Iterate d = map.solve(map.linearise(value));
   if (!d.finite()) return std::nullopt;
   State to{balanced + condensed.response(-(problem.B.transpose() * d.lambda), d.alpha), from.lambda + d.lambda};
-  return to.u.allFinite() && to.lambda.allFinite() ? std::optional(std::move(to)) : std::nullopt;
+  return to.u.here().allFinite() && to.lambda.allFinite() ? std::optional(std::move(to)) : std::nullopt;
 }
 
 }  // namespace

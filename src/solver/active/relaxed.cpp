@@ -9,6 +9,7 @@
 namespace dotyk::solver {
 namespace {
 
+using algebra::Field;
 using algebra::SparseMatrix;
 using algebra::Vector;
 using problem::Problem;
@@ -43,7 +44,7 @@ class NonlinearSmoothing {
  public:
   /// `bearing`: those rows.
   NonlinearSmoothing(const Problem& problem, const HeldStiffness& stiffness, const problem::State& from, const std::vector<int>& bearing)
-      : problem_(problem), basis_(stiffness.basis()), from_(from), lambda_(from.lambda) {
+      : problem_(problem), stiffness_(stiffness), u_(stiffness.field(from.u)), lambda_(from.lambda) {
     std::vector<char> near = own_unknowns(bearing, stiffness, problem.unknowns());
     algebra::SymmetricMatrix matrix = stiffness.near(near, kLayers);
     std::vector<int> place(near.size(), -1);
@@ -54,11 +55,15 @@ class NonlinearSmoothing {
     matrix = {};
     diagonal_ = A_.diagonal();
     take_rows(place);
-    const Vector jump = problem.B * from.u - problem.c;
+    const Vector jump = problem::jumps(problem, from.u);
     Vector given = lambda_;
     for (int k = 0; k < size(); ++k)
       if (const int r = rows_[k].row; r >= 0) given[r] = 0, rows_[k].x = jump[r];
-    left_ = basis_.forces(problem.load() - problem::rough_stiffness_times(problem, from.u) - problem.B.transpose() * given)(unknowns_);
+    Field left = stiffness.field();
+    if (problem.loaded()) left.put(problem.load());
+    problem::take_stiffness_times(problem, {u_, stiffness.field()}, false, left);
+    left.set_watched(stiffness.near_basis().forces(left.watched() - stiffness.jumps().transpose() * given));
+    left_ = left.some(unknowns_);
   }
 
   /// Up and down.
@@ -68,11 +73,14 @@ class NonlinearSmoothing {
   }
 
   problem::State state() const {
-    Vector all = Vector::Zero(problem_.unknowns());
-    all(unknowns_) = moved_;
-    all = basis_.displacements(std::move(all));
-    all += from_.u;
-    return {std::move(all), lambda_};
+    Vector near = Vector::Zero(std::ssize(stiffness_.near_rows()));
+    for (int k = 0; k < size(); ++k)
+      if (const int place = stiffness_.place(unknowns_[k]); place >= 0) near[place] = moved_[k];
+    near = u_.watched() + stiffness_.near_basis().displacements(std::move(near));
+    Field u = u_;
+    u.set_some(unknowns_, u.some(unknowns_) + moved_);
+    u.set_watched(near);
+    return {problem::Displacement(std::move(u)), lambda_};
   }
 
  private:
@@ -89,7 +97,8 @@ class NonlinearSmoothing {
   int size() const { return static_cast<int>(unknowns_.size()); }
 
   void take_rows(const std::vector<int>& place) {
-    const auto place_of = [&](int r) { return basis_.unknown[r] < 0 ? -1 : place[basis_.unknown[r]]; };
+    const std::vector<int>& unknown = stiffness_.basis().unknown;
+    const auto place_of = [&](int r) { return unknown[r] < 0 ? -1 : place[unknown[r]]; };
     for (const auto& [law, k, r] : problem_.scalar_rows())
       if (const int at = place_of(r); at >= 0) rows_[at] = {r, &law, nullptr, k, {at, at}, 0};
     for (const auto& [group, k, first, n] : problem_.friction_points()) {
@@ -130,8 +139,8 @@ class NonlinearSmoothing {
   }
 
   const Problem& problem_;
-  const problem::RowBasis& basis_;
-  const problem::State& from_;
+  const HeldStiffness& stiffness_;
+  const Field u_;  ///< of `from`
   Vector lambda_;
   std::vector<int> unknowns_;
   std::vector<Row> rows_;  ///< by place among unknowns_, as all that follows

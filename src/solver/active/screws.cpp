@@ -163,7 +163,7 @@ class ScrewStep final : public Step {
     return lambda.allFinite() && x.allFinite();
   }
 
-  Vector recover() override { return condensed_.recover(lambda_, alpha_); }
+  problem::Displacement recover() override { return condensed_.recover(lambda_, alpha_); }
 
  private:
   const problem::CondensedProblem& condensed_;

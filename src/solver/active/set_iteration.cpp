@@ -105,7 +105,7 @@ void SetIteration::begin_from(const problem::State& from) {
   Stopwatch watch;
   const std::optional<problem::State> better = relaxed(problem, held_by, from);
   const problem::State& begun = better ? *better : from;
-  Vector jump = problem.B * begun.u - problem.c;
+  Vector jump = problem::jumps(problem, begun.u);
   if (!better)
     for (const auto& [law, k, r] : problem.scalar_rows())
       if (law.unilateral()) jump[r] = begun.lambda[r] > 0 ? 0 : -1;  // only the sign counts
@@ -303,6 +303,9 @@ std::string SetIteration::places() const {
   return out;
 }
 
-problem::State SetIteration::state() { return {settled ? *settled : alpha ? condensed_->recover(lambda, *alpha) : step->recover(), lambda}; }
+problem::State SetIteration::state() {
+  if (settled) return {*settled, lambda};
+  return {alpha ? problem::Displacement(condensed_->recover(lambda, *alpha)) : step->recover(), lambda};
+}
 
 }  // namespace dotyk::solver

@@ -53,7 +53,7 @@ class SetIteration {
   Linearisation l;
   algebra::Vector lambda, x;
   std::optional<algebra::Vector> alpha;    ///< of rigid motions, where λ is not the last step's
-  std::optional<algebra::Vector> settled;  ///< u of another method
+  std::optional<problem::Displacement> settled;  ///< u of another method
   std::optional<Screws> screws;
   std::unique_ptr<Step> step;
   /// At rows or at a state that the settings name.

@@ -49,11 +49,15 @@ class SignedSolver final : public algebra::SpdSolver {
     return signs_.cwiseProduct(x);
   }
   Solved solve_fields(Field& b, double tolerance, Field& x, Field& left) override {
-    const auto turn = [&](Field& field) { field.set_watched(near_signs_.cwiseProduct(field.watched())); };
     turn(b);
     const Solved solved = of_K_->solve_fields(b, tolerance, x, left);
     for (Field* field : {&b, &x, &left}) turn(*field);
     return solved;
+  }
+  bool interpolate(const Field& coarse, Field& fine) const override {
+    if (!of_K_->interpolate(coarse, fine)) return false;
+    turn(fine);
+    return true;
   }
   bool iterates() const override { return of_K_->iterates(); }
   int iterations() const override { return of_K_->iterations(); }
@@ -62,6 +66,8 @@ class SignedSolver final : public algebra::SpdSolver {
   std::string method() const override { return of_K_->method(); }
 
  private:
+  void turn(Field& field) const { field.set_watched(near_signs_.cwiseProduct(field.watched())); }
+
   const Vector signs_, near_signs_;
   const std::unique_ptr<algebra::SpdSolver> of_K_;
 };

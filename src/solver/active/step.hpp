@@ -14,7 +14,7 @@ class Step {
  public:
   virtual ~Step() = default;
   /// A displacement near the solution, for steps that iterate.
-  virtual void begin(const algebra::Vector& /*u*/) {}
+  virtual void begin(const problem::Displacement& /*u*/) {}
   /// Sets λ and x = Bu − c. False where the linear problem is singular (the active rows
   /// depend on each other beyond repair, or do not hold a body).
   virtual bool solve(const Linearisation& l, algebra::Vector& lambda, algebra::Vector& x) = 0;
@@ -23,7 +23,7 @@ class Step {
   /// Takes u back towards that of the solve before the last: this part of the way is left. For steps that take friction.
   virtual void go_back(double /*part*/) {}
   /// The whole u that belongs to the last solve().
-  virtual algebra::Vector recover() = 0;
+  virtual problem::Displacement recover() = 0;
 };
 
 /// On the condensed problem: dense, of the size of the active set (TR965 (1.68)–(1.69)).

@@ -39,7 +39,7 @@ void solve_block(const problem::Block& block, algebra::Ordering ordering, Monito
                           ": a material, spring or mesh value is out of range"));
   result.clock.factor += watch.lap();
   monitor.check();
-  result.state.u.segment(block.first, block.size()) = cholesky.solve(block.f);
+  result.state.u.change().segment(block.first, block.size()) = cholesky.solve(block.f);
   result.clock.recover += watch.lap();
   result.factor_bytes += cholesky.bytes();
   result.ordering = cholesky.method();
@@ -50,7 +50,7 @@ void solve_block(const problem::Block& block, algebra::Ordering ordering, Monito
 Result solve_linear(const problem::Problem& problem, algebra::Ordering ordering, Monitor& monitor) {
   Result result;
   result.method = "linear";
-  result.state.u.resize(problem.unknowns());
+  result.state.u = algebra::Vector(problem.unknowns());
   result.state.lambda.resize(0);
   result.reason = "linear problem, solved directly";
   const bool free = std::any_of(problem.blocks.begin(), problem.blocks.end(), [](const auto& block) { return block.kernel.cols() > 0; });

@@ -37,15 +37,18 @@ Vector nearest_amounts(const problem::FreeMotions& free, const Eigen::MatrixXd& 
 }
 
 /// The motions, how far they go, and of all states that differ by them the one nearest to `before`.
-void take_nearest(const problem::Problem& problem, const problem::FreeMotions& free, const Vector& before, Result& result) {
+void take_nearest(const problem::Problem& problem, const problem::FreeMotions& free, const problem::Displacement& before, Result& result) {
   const int count = free.count;
   Eigen::MatrixXd D = problem::displacement(problem, free.motions);
   if (free.unnoticed.cols() > 0) {
     const auto unnoticed = algebra::orthonormal(problem::displacement(problem, free.unnoticed));
     for (int k = 0; k < count; ++k) D.col(k) = problem::least(unnoticed, D.col(k));
   }
-  const Vector amounts = nearest_amounts(free, D.transpose() * D, D.transpose() * (before - result.state.u));
-  result.state.u += D * amounts;
+  const bool at_rest = before.size() == 0 || before.here().isZero(0);
+  Vector& u = result.state.u.change();
+  const Vector wanted = at_rest ? Vector(-u) : Vector(before.here() - u);
+  const Vector amounts = nearest_amounts(free, D.transpose() * D, D.transpose() * wanted);
+  u += D * amounts;
   int widest = 0;
   problem::Interval range{0, 0};  // of the motion that may go furthest, as a displacement
   for (int k = 0; k < count; ++k) {
@@ -53,17 +56,17 @@ void take_nearest(const problem::Problem& problem, const problem::FreeMotions& f
     const problem::Interval own = free.range(k, amounts);
     if ((own.high - own.low) * size > range.high - range.low) widest = k, range = {own.low * size, own.high * size};
   }
-  if (range.high - range.low <= 1e-9 * result.state.u.lpNorm<Eigen::Infinity>()) return;  // they have nowhere to go
+  if (range.high - range.low <= 1e-9 * u.lpNorm<Eigen::Infinity>()) return;  // they have nowhere to go
   const std::string which = describe(problem::body_motions(problem), Vector(free.motions.col(widest)));
   result.reason += text(stress(problem), ", displacement up to ", count == 1 ? which : text(count, " motions, one of them ", which),
                         ", by displacements from ", end(range.low), " to ", end(range.high),
                         " at the most: the contacts that hold leave ", count == 1 ? "it" : "them", " free until the next node closes or sticks, so that the mesh decides how "
-                        "far; this is the ", before.isZero(0) ? "least" : "nearest to the step before");
+                        "far; this is the ", at_rest ? "least" : "nearest to the step before");
 }
 
 }  // namespace
 
-problem::FreeMotions settle(const problem::Problem& problem, const Vector& before, Result& result) {
+problem::FreeMotions settle(const problem::Problem& problem, const problem::Displacement& before, Result& result) {
   problem::FreeMotions free;
   if (!result.converged || problem.rows() == 0) return free;
   try {
@@ -73,7 +76,7 @@ problem::FreeMotions settle(const problem::Problem& problem, const Vector& befor
     return free;
   }
   // Without loads the rounding of motions added up may be all the strain there is.
-  if (free.count == 1 || (free.count > 0 && free.count <= problem::kMostModes && loaded(problem)))
+  if (free.count == 1 || (free.count > 0 && free.count <= problem::kMostModes && problem.loaded()))
     take_nearest(problem, free, before, result);
   else if (free.count > 0)
     result.reason += text(stress(problem), ", displacement up to ", free.count, " motions that the contacts that hold leave free",

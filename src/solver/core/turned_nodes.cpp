@@ -124,14 +124,14 @@ Problem TurnedNodes::turned() const {
 
 Beginning TurnedNodes::turned(const Beginning& from) const {
   Beginning out = restricted(from);
-  if (out.from) out.from = std::make_shared<problem::State>(problem::State{T_.transpose() * (out.from->u - u0_), out.from->lambda});
+  if (out.from) out.from = std::make_shared<problem::State>(problem::State{T_.transpose() * (out.from->u.here() - u0_), out.from->lambda});
   return out;
 }
 
 void TurnedNodes::extend(Result& result) const {
   RowSubset::extend(result);
   problem::State& state = result.state;
-  state.u = T_ * state.u + u0_;
+  state.u = T_ * state.u.here() + u0_;
   const Vector left = problem().load() - problem().B.transpose() * state.lambda - problem::stiffness_times(problem(), state.u);
   for (const Node& n : nodes_) {
     const Vector forces = algebra::MinimumNorm(n.R).solve_transposed(left.segment(n.first, n.unknowns));

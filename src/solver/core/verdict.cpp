@@ -20,7 +20,9 @@ constexpr double kMostGranted = 0.1;
 void require_finite(const Problem& problem, const Result& result, const Residual& r) {
   const double sum = r.energy + problem::friction_energy(problem, result.state) + r.equilibrium +
                      r.penetration + r.complementarity + r.law;
-  if (result.state.u.allFinite() && result.state.lambda.allFinite() && std::isfinite(sum)) return;
+  const problem::Displacement& u = result.state.u;
+  const bool finite = u.there() ? std::isfinite(u.there()->moduli()) : u.here().allFinite();
+  if (finite && result.state.lambda.allFinite() && std::isfinite(sum)) return;
   throw std::runtime_error(
       "the solution has values beyond the range of numbers: stiffness, loads or sizes are too large or too "
       "small; choose units in which they are moderate");
@@ -54,7 +56,7 @@ void refuse_residuals(const Problem& problem, const Residual& r, Result& result)
       penalty = std::max(penalty, (1 + asked) * result.penalty->penetration / row.length);
   const double laws = result.penalty ? r.law : r.laws();
   if (equilibrium > allowed)
-    refuse(text("rounding leaves a residual of ", equilibrium, " in equilibrium", loaded(problem) ? "" : " (no load gives forces a scale: if they should vanish, take pdas, which ends exactly)",
+    refuse(text("rounding leaves a residual of ", equilibrium, " in equilibrium", problem.loaded() ? "" : " (no load gives forces a scale: if they should vanish, take pdas, which ends exactly)",
                 ": stiffnesses, supports or sizes are too far apart ",
                 result.feti ? "for this decomposition, or tol is too great"
                             : "(a material nearly incompressible, a spring nearly absent, cells nearly flat)"), result);
@@ -81,10 +83,6 @@ std::string ending(const Result& r) {
 
 std::string doubt(const Result& r) {
   return r.converged ? "" : "not converged: " + r.reason.substr(0, first_clause(r.reason));
-}
-
-bool loaded(const Problem& problem) {
-  return std::any_of(problem.blocks.begin(), problem.blocks.end(), [](const problem::Block& block) { return !block.f.isZero(0); });
 }
 
 Residual judge(const Problem& problem, Result& result, double softest) {

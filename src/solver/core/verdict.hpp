@@ -24,7 +24,4 @@ std::string ending(const Result& result);
 /// method converged.
 std::string doubt(const Result& result);
 
-/// Is there a load on any block? Without one nothing but rounding gives forces a scale.
-bool loaded(const problem::Problem& problem);
-
 }  // namespace dotyk::solver

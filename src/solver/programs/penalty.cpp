@@ -71,7 +71,7 @@ class SpringStep final : public Step {
     return true;
   }
 
-  Vector recover() override { return u_; }
+  problem::Displacement recover() override { return u_; }
 
  private:
   SparseMatrix matrix(const Vector& k) const {
@@ -92,7 +92,7 @@ class SpringStep final : public Step {
 
 PenaltyError error_of(const Problem& problem, const problem::State& state, double factor) {
   PenaltyError error{factor, 0, 0};
-  const Vector x = problem.B * state.u - problem.c;
+  const Vector x = problem::jumps(problem, state.u);
   for (const RowGroup& group : problem.groups)
     for (int r = group.first; !is_spring(group) && r < group.first + group.count; ++r) {
       error.penetration = std::max(error.penetration, group.law->unilateral() ? x[r] : std::abs(x[r]));

@@ -103,17 +103,16 @@ void PrimalProgram::rescale() {
 }
 
 problem::State PrimalProgram::state(const Vector& x, const Vector& y) const {
-  problem::State state{unit_ * x, Vector::Zero(problem_.rows())};
-  if (!condensed_.empty()) state.u.resize(problem_.unknowns());
+  Vector u = unit_ * x;
+  if (!condensed_.empty()) u.resize(problem_.unknowns());
   Eigen::Index first = 0;
   for (std::size_t b = 0; b < condensed_.size(); ++b) {
     const Eigen::Index size = condensed_[b].load.size();
-    state.u.segment(problem_.blocks[b].first, problem_.blocks[b].size()) =
-        condensed_[b].condensation.recover(unit_ * x.segment(first, size));
+    u.segment(problem_.blocks[b].first, problem_.blocks[b].size()) = condensed_[b].condensation.recover(unit_ * x.segment(first, size));
     first += size;
   }
-  state.u = problem::least(unnoticed_, std::move(state.u));
-  state.lambda = spring_.cwiseProduct(problem_.B * state.u - problem_.c);
+  problem::State state{problem::least(unnoticed_, std::move(u)), {}};
+  state.lambda = spring_.cwiseProduct(problem::jumps(problem_, state.u));
   state.lambda(rows_) = unit_ * y;
   return state;
 }
@@ -151,7 +150,7 @@ class Recorder final : public Monitor {
 std::vector<char> closed_rows(const Problem& problem, const PrimalProgram& primal, const program::Result& solved, const problem::State& state) {
   std::vector<char> closed(problem.rows(), 1);  // elastic and bilateral rows always act
   const std::vector<problem::Scales> scales = problem::scales(problem, state);
-  const Vector jump = problem.B * state.u - problem.c;
+  const Vector jump = problem::jumps(problem, state.u);
   for (std::size_t k = 0; k < primal.rows().size(); ++k) {
     const int r = primal.rows()[k];
     const bool held = !solved.working.empty() && solved.working[k] != program::Side::free;

@@ -186,7 +186,7 @@ constexpr double kRounded = 1e-9;  // of laws
 Vector rigid_motion_of(const problem::State& state, const Problem& problem, const CondensedProblem& condensed) {
   if (condensed.kernel_size() == 0) return Vector(0);
   const Vector none = Vector::Zero(condensed.kernel_size());
-  const Vector jump = problem.B * state.u - problem.c;
+  const Vector jump = problem::jumps(problem, state.u);
   return algebra::least_squares(condensed.N(), Vector(jump - condensed.jump(state.lambda, none)));
 }
 
