@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "algebra/coarse_functions.hpp"
 #include "algebra/spd_solver.hpp"
 #include "algebra/symmetric_matrix.hpp"
 #include "base/monitor.hpp"
@@ -24,11 +25,10 @@ struct Matrix {
   /// u, lower triangle, whose aggregates the hierarchy takes, and S with u' = S u.
   const algebra::SparseMatrix* displaced = nullptr;
   const algebra::SparseMatrix* unknowns = nullptr;
-  /// The functions of coarser meshes. The first matrix gives displacements by the functions of the next coarser mesh, the second those functions by the
-  /// ones of the mesh after it, and so on; `dimension` columns belong to a node. Where the coarsest level is still large, aggregates follow. Null: there
-  /// is no coarser mesh, and all levels are aggregates.
-  const std::vector<algebra::SparseRows>* coarse = nullptr;
-  int dimension = 3;
+  /// The functions of coarser meshes: the first ones give displacements by the functions of the next coarser mesh, the second ones those functions by the
+  /// ones of the mesh after it, and so on. Where the coarsest level is still large, aggregates follow. Null: there is no coarser mesh, and all levels are
+  /// aggregates.
+  const std::vector<algebra::CoarseFunctions>* coarse = nullptr;
   /// Receives the matrix of the next coarser mesh: PᵀKP, in slices except where several ranks would have too little work, where K is the matrix of displacements, that of the slices or SᵀAS for A = `lower` and S =
   /// `unknowns`, without `changed`, and P the first of `coarse` without its empty columns. It stays as it is where `coarse` is null. Null: nobody asks.
   algebra::SymmetricMatrix* coarser = nullptr;

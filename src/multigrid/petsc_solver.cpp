@@ -16,13 +16,13 @@ namespace dotyk::multigrid {
 namespace {
 
 Numbering numbered(const Matrix& matrix, int ranks) {
-  const std::vector<algebra::SparseRows> no_functions;
+  const std::vector<algebra::CoarseFunctions> no_functions;
   const algebra::SparseRows no_rows;
   const EachPair each_pair = [&, &K = matrix.displaced ? *matrix.displaced : matrix.lower](const auto& visit) {
     for (int j = 0; j < K.cols(); ++j)  // the first of each node
       for (algebra::SparseMatrix::InnerIterator it(K, j); it && (j == 0 || matrix.node[j] != matrix.node[j - 1]); ++it) visit(static_cast<int>(it.row()), j);
   };
-  return {{matrix.node, matrix.coarse ? *matrix.coarse : no_functions, matrix.dimension, matrix.rows ? *matrix.rows : no_rows, each_pair}, ranks};
+  return {{matrix.node, matrix.coarse ? *matrix.coarse : no_functions, matrix.rows ? *matrix.rows : no_rows, each_pair}, ranks};
 }
 
 /// The solver as rank 0 has it. The other ranks have a Cycle each, and do what this one tells them.
@@ -40,7 +40,7 @@ class PetscSolver final : public algebra::SpdSolver {
       const Workers of_coarser = workers_.next();
       cycle_ = std::make_unique<Cycle>(ranks, share_out(pieces, asked ? of_coarser.number() : 0));
       if (asked)
-        coarser = std::make_shared<const RankSlices>(of_coarser, Numbering(*numbering_, matrix.coarse->front(), matrix.dimension), cycle_->take_coarser());
+        coarser = std::make_shared<const RankSlices>(of_coarser, Numbering(*numbering_, matrix.coarse->front()), cycle_->take_coarser());
     });
     workers_.made();
     alone_.unlock();

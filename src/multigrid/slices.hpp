@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "algebra/coarse_functions.hpp"
 #include "algebra/symmetric_matrix.hpp"
 #include "base/lists.hpp"
 
@@ -19,8 +20,7 @@ using EachPair = std::function<void(const std::function<void(int, int)>& visit)>
 /// What decides which rank gets which unknowns.
 struct Coupling {
   const std::vector<int>& node;                    ///< of each unknown, ascending, as in Matrix
-  const std::vector<algebra::SparseRows>& coarse;  ///< as in Matrix; none: there is no coarser mesh
-  int dimension;                                   ///< as in Matrix
+  const std::vector<algebra::CoarseFunctions>& coarse;  ///< as in Matrix; none: there is no coarser mesh
   const algebra::SparseRows& rows;                 ///< as in Matrix; none: nothing is coupled by rows
   EachPair each_pair;                              ///< of unknowns whose nodes the matrix couples; one unknown of each node is enough
 };

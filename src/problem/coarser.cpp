@@ -18,58 +18,37 @@ using algebra::Vector;
 
 namespace {
 
-/// The column of a row that is 1 there and has no other entry: a node that the coarser mesh has. Else -1.
-int same(const SparseRows& functions, int i) {
-  const int begin = functions.outerIndexPtr()[i];
-  const bool alone = functions.outerIndexPtr()[i + 1] - begin == 1 && functions.valuePtr()[begin] == 1;
-  return alone ? functions.innerIndexPtr()[begin] : -1;
-}
-
-/// The columns that have entries; of each column its place among them, or -1.
-std::vector<int> places(const SparseRows& functions) {
-  std::vector<int> place(functions.cols(), -1);
-  for (int i = 0; i < functions.rows(); ++i)
-    for (SparseRows::InnerIterator it(functions, i); it; ++it) place[it.col()] = 0;
-  int count = 0;
-  for (int& p : place) p = p < 0 ? -1 : count++;
-  return place;
-}
-
-SparseRows with_rows(const SparseRows& functions, const std::vector<int>& place) {
-  std::vector<int> rows;
-  for (std::size_t i = 0; i < place.size(); ++i)
-    if (place[i] >= 0) rows.push_back(static_cast<int>(i));
-  return algebra::pick_rows(functions, rows);
-}
-
 struct CoarserBlock {
   Block block;
-  std::shared_ptr<const SparseRows> functions;  ///< the unknowns of the finer block by this one's
+  algebra::CoarseFunctions functions;  ///< the unknowns of the finer block by this one's
 };
 
 /// The block without its K. `all`: the functions of all coarser meshes.
-CoarserBlock coarser(const Block& fine, std::vector<SparseRows> all) {
-  const std::vector<int> place = places(all[0]);
-  const auto P = std::make_shared<SparseRows>();  // Eigen's matrices have no move
-  algebra::with_columns(all[0], place, *P);
-  CoarserBlock out{{}, P};
-  const SparseRows& functions = *out.functions;
-  if (all.size() > 1) all[1] = with_rows(all[1], place);
+CoarserBlock coarser(const Block& fine, std::vector<algebra::CoarseFunctions> all) {
+  CoarserBlock out{{}, all[0].compact()};
+  const algebra::CoarseFunctions& functions = out.functions;
   Block& block = out.block;
   block.name = fine.name;
-  block.f = functions.transpose() * fine.f;
+  block.f = fine.f.isZero(0) ? Vector(Vector::Zero(functions.columns)) : functions.transposed_times(fine.f);
   block.offset = fine.offset;
-  for (std::size_t k = 0; k < place.size(); ++k)
-    if (place[k] >= 0) block.node.push_back(static_cast<int>(k) / fine.coarse.dimension);
-  block.kernel = at_coarse(functions, fine.kernel);
+  for (std::size_t k = 0; k < functions.column->size(); ++k)
+    if ((*functions.column)[k] >= 0) block.node.push_back(static_cast<int>(k) / functions.dimension);
+  block.kernel = functions.at_coarse(fine.kernel);
   block.motions = fine.motions;
-  if (fine.rigid) block.rigid = [rigid = fine.rigid, P = out.functions] { return at_coarse(*P, rigid()); };
+  if (fine.rigid) block.rigid = [rigid = fine.rigid, functions] { return functions.at_coarse(rigid()); };
   all.erase(all.begin());
-  const auto rest = std::make_shared<const std::vector<SparseRows>>(std::move(all));
+  if (!all.empty()) all[0] = all[0].with_rows(functions.column, functions.columns);
   std::vector<int> nodes;
-  for (const SparseRows& next : *rest) nodes.push_back(static_cast<int>(next.cols()) / fine.coarse.dimension);
-  block.coarse = {std::move(nodes), fine.coarse.dimension, [rest](int most) { return std::vector<SparseRows>(rest->begin(), rest->begin() + most); }};
+  for (const algebra::CoarseFunctions& next : all) nodes.push_back(next.coarse_nodes());
+  block.coarse = {std::move(nodes), functions.dimension, [all = std::move(all)](int most) { return std::vector(all.begin(), all.begin() + most); }, fine.coarse.order};
   return out;
+}
+
+/// The component of its node that an unknown is.
+int component_of(const algebra::CoarseFunctions& functions, int node, int unknown) {
+  int k = 0;
+  while ((*functions.row)[functions.dimension * node + k] != unknown) ++k;
+  return k;
 }
 
 /// The unknown with the greatest factor, or -1.
@@ -105,14 +84,6 @@ void take_stiffness(Problem& problem, algebra::SymmetricMatrix all) {
 
 }  // namespace
 
-DenseMatrix at_coarse(const SparseRows& functions, const DenseMatrix& values) {
-  DenseMatrix out = DenseMatrix::Zero(functions.cols(), values.cols());
-  if (values.cols() == 0) return out;
-  for (int i = 0; i < functions.rows(); ++i)
-    if (const int column = same(functions, i); column >= 0) out.row(column) = values.row(i);
-  return out;
-}
-
 int coarser_meshes(const Problem& problem) {
   constexpr double kWorth = 0.7;  // displacements of a mesh, of those of the finer one: bodies without coarser meshes keep theirs
   std::size_t count = 0;
@@ -133,30 +104,47 @@ int coarser_meshes(const Problem& problem) {
   return static_cast<int>(count);
 }
 
-std::vector<SparseRows> coarse_functions(const Problem& problem) {
-  const int levels = coarser_meshes(problem);
-  if (levels == 0) return {};
-  if (problem.blocks.size() == 1) return problem.blocks.front().coarse.functions(levels);
-  std::vector<algebra::Triplets> entries(levels);
-  std::vector<Eigen::Index> rows(entries.size(), 0), columns(rows);
-  for (const Block& block : problem.blocks) {
-    const std::vector<SparseRows> own = block.coarse.functions(levels);
-    for (std::size_t l = 0; l < own.size(); ++l) {
-      for (int i = 0; i < own[l].rows(); ++i)
-        for (SparseRows::InnerIterator it(own[l], i); it; ++it)
-          entries[l].emplace_back(static_cast<int>(rows[l] + i), static_cast<int>(columns[l] + it.col()), it.value());
-      rows[l] += own[l].rows(), columns[l] += own[l].cols();
+namespace {
+
+/// Functions of several bodies as those of one.
+algebra::CoarseFunctions joined(const std::vector<algebra::CoarseFunctions>& of_blocks) {
+  algebra::CoarseFunctions all{of_blocks[0].dimension, nullptr, nullptr, nullptr, 0, 0};
+  std::vector<int> row, column;
+  int nodes = 0;
+  for (const algebra::CoarseFunctions& own : of_blocks) {
+    for (const int r : *own.row) row.push_back(r < 0 ? -1 : all.rows + r);
+    for (const int c : *own.column) column.push_back(c < 0 ? -1 : all.columns + c);
+    nodes += own.nodes(), all.rows += own.rows, all.columns += own.columns;
+  }
+  all.means = std::make_shared<const Buckets>(nodes, [&](auto&& put) {
+    int node = 0, coarse = 0;
+    for (const algebra::CoarseFunctions& own : of_blocks) {
+      for (int i = 0; i < own.nodes(); ++i, ++node)
+        for (const int p : own.of(i)) put(node, coarse + p);
+      coarse += own.coarse_nodes();
     }
-  }
-  std::vector<SparseRows> all;
-  for (std::size_t l = 0; l < entries.size(); ++l) {
-    all.push_back(algebra::from_triplets<SparseRows>(rows[l], columns[l], entries[l]));
-    entries[l] = {};
-  }
+  });
+  all.row = std::make_shared<const std::vector<int>>(std::move(row)), all.column = std::make_shared<const std::vector<int>>(std::move(column));
   return all;
 }
 
-Coarser coarser(const Problem& problem, std::vector<SparseRows> functions, algebra::SymmetricMatrix stiffness) {
+}  // namespace
+
+std::vector<algebra::CoarseFunctions> coarse_functions(const Problem& problem) {
+  const auto levels = static_cast<std::size_t>(coarser_meshes(problem));
+  if (levels == 0) return {};
+  std::vector<std::vector<algebra::CoarseFunctions>> of_level(levels);
+  for (const Block& block : problem.blocks) {
+    std::vector<algebra::CoarseFunctions> own = block.coarse.functions(static_cast<int>(levels));
+    if (problem.blocks.size() == 1) return own;
+    for (std::size_t l = 0; l < levels; ++l) of_level[l].push_back(std::move(own[l]));
+  }
+  std::vector<algebra::CoarseFunctions> all;
+  for (const auto& of_blocks : of_level) all.push_back(joined(of_blocks));
+  return all;
+}
+
+Coarser coarser(const Problem& problem, std::vector<algebra::CoarseFunctions> functions, algebra::SymmetricMatrix stiffness) {
   const int levels = coarser_meshes(problem);
   if (levels == 0) throw std::logic_error("coarser: no coarser meshes are known");
   Coarser out;
@@ -164,10 +152,19 @@ Coarser coarser(const Problem& problem, std::vector<SparseRows> functions, algeb
   for (const Block& fine : problem.blocks) {
     CoarserBlock coarse = coarser(fine, functions.empty() ? fine.coarse.functions(levels) : std::move(functions));
     coarse.block.first = out.problem.unknowns();
-    const SparseRows B = problem.rows_of(fine) * *coarse.functions;
-    for (int r = 0; r < B.rows(); ++r)
-      for (SparseRows::InnerIterator it(B, r); it; ++it) entries.emplace_back(r, coarse.block.first + static_cast<int>(it.col()), it.value());
-    if (stiffness.rows() == 0) coarse.block.K = algebra::congruent(fine.K, *coarse.functions);
+    for (int r = 0; r < problem.rows(); ++r)
+      for (SparseRows::InnerIterator it(problem.B, r); it; ++it) {
+        const int unknown = static_cast<int>(it.col()) - fine.first;
+        if (unknown < 0 || unknown >= fine.size()) continue;
+        const int node = fine.node[unknown];
+        coarse.functions.each_in_row(node, component_of(coarse.functions, node, unknown),
+                                     [&](int column, double number) { entries.emplace_back(r, coarse.block.first + column, it.value() * number); });
+      }
+    if (stiffness.rows() == 0) {
+      SparseRows P;
+      coarse.functions.store(P);
+      coarse.block.K = algebra::congruent(fine.K, P);
+    }
     out.problem.blocks.push_back(std::move(coarse.block));
     out.functions.push_back(std::move(coarse.functions));
   }
@@ -179,7 +176,7 @@ Coarser coarser(const Problem& problem, std::vector<SparseRows> functions, algeb
     const int unknown = greatest(problem.B, row);
     if (unknown < 0) return false;
     const std::size_t b = problem.block_of(unknown);
-    return same(*out.functions[b], unknown - problem.blocks[b].first) >= 0;
+    return out.functions[b].same(problem.blocks[b].node[unknown - problem.blocks[b].first]) >= 0;
   };
   out.kept.assign(problem.rows(), 1);
   for (const RowGroup& group : problem.groups)
@@ -191,16 +188,11 @@ Coarser coarser(const Problem& problem, std::vector<SparseRows> functions, algeb
 
 Vector Coarser::finer_displacement(const Vector& u) const {
   Eigen::Index unknowns = 0;
-  for (const auto& P : functions) unknowns += P->rows();
+  for (const auto& P : functions) unknowns += P.rows;
   Vector finer(unknowns);
   Eigen::Index first = 0;
-  for (std::size_t b = 0; b < functions.size(); ++b) {
-    const SparseRows& P = *functions[b];
-    parallel_parts(P.rows(), [&](int begin, int end) {
-      finer.segment(first + begin, end - begin) = P.middleRows(begin, end - begin) * u.segment(problem.blocks[b].first, P.cols());
-    });
-    first += P.rows();
-  }
+  for (std::size_t b = 0; b < functions.size(); first += functions[b].rows, ++b)
+    finer.segment(first, functions[b].rows) = functions[b].times(u.segment(problem.blocks[b].first, functions[b].columns));
   return finer;
 }
 

@@ -11,10 +11,7 @@ namespace dotyk::problem {
 /// where a body cannot tell functions of coarser meshes.
 int coarser_meshes(const Problem& problem);
 /// The functions of so many coarser meshes, all bodies together, the finest of these meshes first: see elasticity::coarse_functions().
-std::vector<algebra::SparseRows> coarse_functions(const Problem& problem);
-
-/// Of values at nodes (rows of `functions`) those at the nodes that the coarser mesh has: where a row is 1 in one column. Elsewhere 0.
-algebra::DenseMatrix at_coarse(const algebra::SparseRows& functions, const algebra::DenseMatrix& values);
+std::vector<algebra::CoarseFunctions> coarse_functions(const Problem& problem);
 
 /// A problem on the functions of the next coarser meshes: the same energy, rows and laws, of fewer displacements.
 struct Coarser {
@@ -22,7 +19,7 @@ struct Coarser {
   /// By row: is it that of a node of the coarser mesh, by the greatest factor? Friction goes with its normal row. Rows under laws with numbers, as
   /// springs, are all kept: together they have the stiffness.
   std::vector<char> kept;
-  std::vector<std::shared_ptr<const algebra::SparseRows>> functions;  ///< by block: the finer unknowns by the coarser ones
+  std::vector<algebra::CoarseFunctions> functions;  ///< by block: the finer unknowns by the coarser ones
 
   /// What a state (u, λ) of this problem is on the finer mesh: u by the functions; the forces of all rows from those of the rows kept, by their densities.
   algebra::Vector finer_displacement(const algebra::Vector& u) const;
@@ -30,6 +27,6 @@ struct Coarser {
 };
 /// `functions`: coarse_functions() of a problem of one block. `stiffness`: PᵀKP of all blocks, P the functions of the next coarser meshes without the empty
 /// ones. What is empty of the two is computed. Throws std::logic_error where there are no coarser meshes.
-Coarser coarser(const Problem& problem, std::vector<algebra::SparseRows> functions = {}, algebra::SymmetricMatrix stiffness = {});
+Coarser coarser(const Problem& problem, std::vector<algebra::CoarseFunctions> functions = {}, algebra::SymmetricMatrix stiffness = {});
 
 }  // namespace dotyk::problem

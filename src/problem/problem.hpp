@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "algebra/coarse_functions.hpp"
 #include "algebra/symmetric_matrix.hpp"
 #include "base/motion.hpp"
 #include "problem/friction.hpp"
@@ -19,7 +20,7 @@ struct CoarseMeshes {
   std::vector<int> nodes = {};  ///< of each that is known, the finest first
   int dimension = 0;            ///< components of a node's displacement
   /// Of so many levels, as elasticity::coarse_functions() says.
-  std::function<std::vector<algebra::SparseRows>(int levels)> functions = {};
+  std::function<std::vector<algebra::CoarseFunctions>(int levels)> functions = {};
   int order = 1;  ///< of the elements of the finest mesh
 };
 

@@ -11,7 +11,6 @@
 #include "multigrid/multigrid.hpp"
 
 using namespace dotyk;
-using algebra::SparseRows;
 using algebra::Vector;
 
 namespace {
@@ -20,12 +19,12 @@ namespace {
 struct Nested {
   static constexpr int n = 8;
   const test::ElasticCube cube = test::cube_on_its_bottom(n);
-  const std::vector<SparseRows> coarse{test::functions_of_coarser(cube, n, false)};
+  const std::vector<algebra::CoarseFunctions> coarse{test::functions_of_coarser(cube, n)};
   Monitor monitor = {};
 
   /// `coarser` receives the matrix of the coarser mesh.
   std::unique_ptr<algebra::SpdSolver> solver(algebra::SymmetricMatrix* coarser, const algebra::Triplets* changed = nullptr) {
-    multigrid::Matrix matrix{cube.lower, cube.node, [&] { return algebra::DenseMatrix(coarse[0].cols(), 0); }};
+    multigrid::Matrix matrix{cube.lower, cube.node, [&] { return algebra::DenseMatrix(coarse[0].columns, 0); }};
     matrix.coarse = &coarse, matrix.coarser = coarser, matrix.changed = changed;
     return multigrid::make_solver(matrix, monitor);
   }
@@ -37,7 +36,7 @@ TEST_CASE("the matrix of the next coarser mesh is told") {
   if (test::not_built()) return;
   Nested nested;
   const test::ElasticCube& cube = nested.cube;
-  const algebra::SparseMatrix expected = algebra::congruent(cube.lower, test::functions_of_coarser(cube, Nested::n, true));
+  const algebra::SparseMatrix expected = algebra::congruent(cube.lower, test::as_matrix(nested.coarse[0].compact()));
   const auto silent = nested.solver(nullptr);
   const algebra::Triplets changed{{0, 0, 2 * cube.lower.coeff(0, 0)}};
   for (const algebra::Triplets* other : {static_cast<const algebra::Triplets*>(nullptr), &changed}) {  // of which it knows nothing

@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "algebra/types.hpp"
+#include "algebra/coarse_functions.hpp"
 
 namespace dotyk::test {
 
@@ -87,32 +87,29 @@ inline ElasticCube cube_on_its_bottom(int n) {
   return elastic_cube(n, [](const std::array<double, 3>& p, int) { return p[2] == 0; });
 }
 
-/// The unknowns of a cube of n³ cells by the displacements of one of (n/2)³ cells: a node that this has not is in the middle of one of its edges. Columns
-/// of held nodes are empty. Without the empty ones where `used` is told.
-inline algebra::SparseRows functions_of_coarser(const ElasticCube& cube, int n, bool used) {
-  const int half = n / 2 + 1;
-  algebra::Triplets entries;
-  std::vector<int> column(static_cast<std::size_t>(3 * half * half * half), used ? -1 : 0);
-  const auto number = [&](const int (&at)[3], int c) { return 3 * ((at[2] * half + at[1]) * half + at[0]) + c; };
-  const auto each = [&](auto&& visit) {
-    for (std::size_t i = 0; i < cube.node.size(); ++i) {
-      int low[3], high[3];
-      for (int k = 0; k < 3; ++k) {
-        const int at = static_cast<int>(std::lround(cube.point[i][k] * n));
-        low[k] = at / 2, high[k] = (at + 1) / 2;
-      }
-      visit(static_cast<int>(i), number(low, cube.component[i]), low[2]), visit(static_cast<int>(i), number(high, cube.component[i]), high[2]);
+/// The unknowns of a cube of n³ cells on its bottom by the displacements of one of (n/2)³ cells: a node that this has not is in the middle of one of its edges.
+inline algebra::CoarseFunctions functions_of_coarser(const ElasticCube& cube, int n) {
+  const int full = n + 1, half = n / 2 + 1;
+  std::vector<int> row(static_cast<std::size_t>(3 * full * full * full), -1), column(static_cast<std::size_t>(3 * half * half * half));
+  for (std::size_t i = 0; i < cube.node.size(); ++i) row[3 * cube.node[i] + cube.component[i]] = static_cast<int>(i);
+  for (int j = 0; j < static_cast<int>(column.size()); ++j) column[j] = j < 3 * half * half ? -1 : j;  // none of the bottom
+  const auto columns = static_cast<int>(column.size());
+  const auto means = std::make_shared<const Buckets>(full * full * full, [&](auto&& put) {
+    for (int i = 0; i < full * full * full; ++i) {
+      const int x = i % full, y = i / full % full, z = i / (full * full);
+      const int low = (z / 2 * half + y / 2) * half + x / 2, high = ((z + 1) / 2 * half + (y + 1) / 2) * half + (x + 1) / 2;
+      put(i, low);
+      if (high != low) put(i, high);
     }
-  };
-  int count = 0;
-  each([&](int, int j, int height) {
-    if (height > 0) column[j] = 0;
   });
-  for (int& j : column) j = j < 0 ? -1 : count++;
-  each([&](int i, int j, int height) {
-    if (height > 0) entries.emplace_back(i, column[j], 0.5);
-  });
-  return algebra::from_triplets<algebra::SparseRows>(static_cast<int>(cube.node.size()), count, entries);
+  return {3, means, std::make_shared<const std::vector<int>>(std::move(row)), std::make_shared<const std::vector<int>>(std::move(column)),
+          static_cast<int>(cube.node.size()), columns};
+}
+
+inline algebra::SparseRows as_matrix(const algebra::CoarseFunctions& functions) {
+  algebra::SparseRows P;
+  functions.store(P);
+  return P;
 }
 
 /// z of the nodes of the top within `radius` of its middle.

@@ -147,7 +147,7 @@ algebra::StoredMatrix from_lists(Lists lists) {
 problem::Problem coupled_cubes() {
   constexpr int n = 6, kRows = 30;
   const test::ElasticCube cube = test::cube_on_its_bottom(n);
-  const algebra::SparseRows functions = test::functions_of_coarser(cube, n, false);
+  const algebra::CoarseFunctions functions = test::functions_of_coarser(cube, n);
   problem::Problem p;
   for (int b = 0; b < 2; ++b) {
     problem::Block block;
@@ -157,7 +157,7 @@ problem::Problem coupled_cubes() {
     block.node = cube.node;
     block.kernel.resize(cube.lower.rows(), 0);
     block.rigid = [motions = cube.motions] { return motions; };
-    block.coarse = {{static_cast<int>(functions.cols()) / 3}, 3, [functions](int levels) { return std::vector<algebra::SparseRows>(static_cast<std::size_t>(levels), functions); }};
+    block.coarse = {{functions.coarse_nodes()}, 3, [functions](int levels) { return std::vector(static_cast<std::size_t>(levels), functions); }};
     add(p, std::move(block));
   }
   const int size = static_cast<int>(cube.node.size()), top = size - 3 * (n + 1) * (n + 1);
@@ -191,8 +191,8 @@ TEST_CASE("slices of several bodies, whose rows couple many displacements, give 
     return all;
   };
   const std::vector<int> node = nodes(whole);
-  const std::vector<algebra::SparseRows> functions = coarse_functions(whole);
-  const multigrid::Coupling coupling{node, functions, 3, whole.B, [](const auto&) {}};
+  const std::vector<algebra::CoarseFunctions> functions = coarse_functions(whole);
+  const multigrid::Coupling coupling{node, functions, whole.B, [](const auto&) {}};
   take_slices(sliced, multigrid::make_slices({coupling, share, from_lists}));
   REQUIRE(slices(sliced));
   const auto rigid = problem::rigid_motions(whole);

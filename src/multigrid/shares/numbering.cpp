@@ -64,6 +64,7 @@ class Sharing {
     const auto meshes = static_cast<int>(coupling.coarse.size());
     for (int l = 0; l <= meshes; ++l) of_.emplace_back(static_cast<std::size_t>(nodes(l)), 0);
     if (ranks == 1) return;
+    if (meshes > 0) take_finest(coupling.coarse[0]);
     std::vector<std::vector<int>> parents;
     std::vector<idx_t> weight = finest_weights();  // of a node the sum of those that follow it
     for (int l = 0; l < meshes && nodes(l + 1) >= kEnough * ranks; ++l) {
@@ -87,27 +88,34 @@ class Sharing {
 
  private:
   int nodes(int level) const {
-    return level == 0 ? static_cast<int>(first_.size()) - 1 : static_cast<int>(coupling_.coarse[level - 1].cols()) / coupling_.dimension;
+    return level == 0 ? static_cast<int>(first_.size()) - 1 : coupling_.coarse[level - 1].coarse_nodes();
   }
-  /// Calls visit(node, row) for the rows of nodes first … last − 1 of a level: supports may take components of a node, and their functions, away.
+  /// Nodes here are those with unknowns; `finest` counts all of them.
+  void take_finest(const algebra::CoarseFunctions& finest) {
+    for (int i = 0; i < finest.nodes(); ++i)
+      if (std::any_of(finest.row->begin() + i * finest.dimension, finest.row->begin() + (i + 1) * finest.dimension, [](int r) { return r >= 0; })) finest_.push_back(i);
+  }
+  /// Calls visit(node, component), both as the functions have them, for the rows of a node of a level: supports may take components away.
   template <class Visit>
-  void each_row(int level, int first, int last, Visit&& visit) const {
-    for (int node = first; node < last; ++node) {
-      const int begin = level == 0 ? first_[node] : node * coupling_.dimension, end = level == 0 ? first_[node + 1] : begin + coupling_.dimension;
-      for (int row = begin; row < end; ++row) visit(node, row);
-    }
+  void each_row(int level, int node, const Visit& visit) const {
+    const algebra::CoarseFunctions& functions = coupling_.coarse[level];
+    const int i = level == 0 ? finest_[node] : node;
+    for (int k = 0; k < functions.dimension; ++k)
+      if ((*functions.row)[functions.dimension * i + k] >= 0) visit(i, k);
   }
 
-  /// Of each node the one of the next level whose function is greatest there; where there is none, that of the node before.
+  /// Of each node the first one of the next level whose function is not zero there; where there is none, that of the node before.
   std::vector<int> parents_of(int level) const {
-    const algebra::SparseRows& functions = coupling_.coarse[level];
+    const algebra::CoarseFunctions& functions = coupling_.coarse[level];
     std::vector<int> parent(static_cast<std::size_t>(nodes(level)), -1);
-    std::vector<double> greatest(parent.size(), 0);
     parallel_parts(nodes(level), [&](int begin, int end) {
-      each_row(level, begin, end, [&](int node, int row) {
-        for (algebra::SparseRows::InnerIterator it(functions, row); it; ++it)
-          if (std::abs(it.value()) > greatest[node] * (1 + 1e-12)) greatest[node] = std::abs(it.value()), parent[node] = static_cast<int>(it.col()) / coupling_.dimension;
-      });
+      for (int node = begin; node < end; ++node)
+        each_row(level, node, [&](int i, int k) {
+          if (parent[node] >= 0) return;
+          int least = functions.columns;
+          functions.each_in_row(i, k, [&](int column, double) { least = std::min(least, column); });
+          if (least < functions.columns) parent[node] = node_of(functions, least);
+        });
     });
     for (std::size_t node = 0; node < parent.size(); ++node)
       if (parent[node] < 0) parent[node] = node > 0 ? parent[node - 1] : 0;
@@ -116,12 +124,15 @@ class Sharing {
   /// Functions that meet at a node of the finer mesh are neighbours.
   template <class Edge>
   void functions_meet(int level, Edge& edge) const {
-    const algebra::SparseRows& functions = coupling_.coarse[level - 1];
-    each_row(level - 1, 0, nodes(level - 1), [&](int, int row) {
-      for (algebra::SparseRows::InnerIterator a(functions, row); a; ++a)
-        for (algebra::SparseRows::InnerIterator b(functions, row); b && b.col() < a.col(); ++b)
-          edge(static_cast<int>(a.col()) / coupling_.dimension, static_cast<int>(b.col()) / coupling_.dimension);
-    });
+    const algebra::CoarseFunctions& functions = coupling_.coarse[level - 1];
+    for (int node = 0; node < nodes(level - 1); ++node)
+      each_row(level - 1, node, [&](int i, int k) {
+        functions.each_in_row(i, k, [&](int a, double) {
+          functions.each_in_row(i, k, [&](int b, double) {
+            if (b < a) edge(node_of(functions, a), node_of(functions, b));
+          });
+        });
+      });
   }
   template <class Edge>
   void nodes_meet(Edge& edge) const {
@@ -159,9 +170,12 @@ class Sharing {
     return node;
   }
 
+  static int node_of(const algebra::CoarseFunctions& functions, int column) { return column / functions.dimension; }  // columns are components of nodes, node by node
+
   const Coupling& coupling_;
   const std::vector<int>& first_;
   const int ranks_;
+  std::vector<int> finest_;  ///< of each node of level 0 its number in the functions
   std::vector<std::vector<int>> of_;
 };
 
@@ -185,17 +199,16 @@ Numbering::Numbering(const Coupling& coupling, int ranks) {
   for (std::size_t l = 1; l <= coupling.coarse.size(); ++l) {
     const std::vector<int> number = numbers_by_rank(sharing.of(static_cast<int>(l)), ranks, first_.emplace_back());
     std::vector<int>& rows = functions_.emplace_back();
+    const int dimension = coupling.coarse[l - 1].dimension;
     for (const int n : number)
-      for (int k = 0; k < coupling.dimension; ++k) rows.push_back(n * coupling.dimension + k);
-    for (int& f : first_[l]) f *= coupling.dimension;
+      for (int k = 0; k < dimension; ++k) rows.push_back(n * dimension + k);
+    for (int& f : first_[l]) f *= dimension;
   }
 }
 
-Numbering::Numbering(const Numbering& finer, const algebra::SparseRows& functions, int dimension)
-    : block_(dimension), functions_(finer.functions_.begin() + 1, finer.functions_.end()), first_(finer.first_.begin() + 1, finer.first_.end()) {
-  std::vector<char> used(static_cast<std::size_t>(functions.cols()), 0);
-  for (Eigen::Index k = 0; k < functions.nonZeros(); ++k) used[functions.innerIndexPtr()[k]] = 1;
-  for (std::size_t k = 0; k < used.size(); ++k) (used[k] ? slot_ : idle_).push_back(finer.functions_[0][k]);
+Numbering::Numbering(const Numbering& finer, const algebra::CoarseFunctions& functions)
+    : block_(functions.dimension), functions_(finer.functions_.begin() + 1, finer.functions_.end()), first_(finer.first_.begin() + 1, finer.first_.end()) {
+  for (std::size_t k = 0; k < functions.column->size(); ++k) ((*functions.column)[k] >= 0 ? slot_ : idle_).push_back(finer.functions_[0][k]);
   take_unknowns();
 }
 

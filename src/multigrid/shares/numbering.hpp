@@ -17,7 +17,7 @@ class Numbering {
  public:
   Numbering(const Coupling& coupling, int ranks);
   /// Numbers the unknowns of PᵀKP, the matrix of the next coarser mesh: the functions that have entries. Each stays with the rank that it has in `finer`.
-  Numbering(const Numbering& finer, const algebra::SparseRows& functions, int dimension);
+  Numbering(const Numbering& finer, const algebra::CoarseFunctions& functions);
 
   int block() const { return block_; }                                   ///< of the finest level
   const std::vector<int>& slot() const { return slot_; }                 ///< row of each unknown

@@ -35,12 +35,11 @@ double mean_diagonal(const algebra::SparseMatrix& lower) {
   return sum / static_cast<double>(lower.cols());
 }
 
-/// The rows of `from` that the new numbering puts into the range. Their columns get new numbers, too.
-Rows some_rows(const algebra::SparseRows& from, const std::vector<int>& row_number, const std::vector<int>& column_number, const Range& range,
-               const std::vector<int>& idle = {}) {
+/// The rows of `from` that the new numbering puts into the range. Their columns get new numbers, too. Idle rows are those of the identity.
+Rows some_rows(const algebra::SparseRows& from, const std::vector<int>& number, const Range& range, const std::vector<int>& idle) {
   std::vector<int> origin(static_cast<std::size_t>(range.count()), -1);  // row of `from`
   for (int i = 0; i < from.rows(); ++i)
-    if (const int row = row_number[i]; range.has(row)) origin[row - range.first] = i;
+    if (const int row = number[i]; range.has(row)) origin[row - range.first] = i;
   std::vector<char> is_idle(origin.size(), 0);
   for (const int i : idle)
     if (range.has(i)) is_idle[i - range.first] = 1;
@@ -48,10 +47,24 @@ Rows some_rows(const algebra::SparseRows& from, const std::vector<int>& row_numb
   for (int r = 0; r < range.count(); ++r) {
     if (origin[r] >= 0)
       for (algebra::SparseRows::InnerIterator it(from, origin[r]); it; ++it) {
-        rows.columns.push_back(column_number[it.col()]);
+        rows.columns.push_back(number[it.col()]);
         rows.values.push_back(it.value());
       }
     if (is_idle[r]) rows.columns.push_back(range.first + r), rows.values.push_back(1.0);
+    rows.starts.push_back(static_cast<int>(rows.columns.size()));
+  }
+  sort_entries(rows.starts.data(), 0, range.count(), rows.columns.data(), rows.values.data());
+  return rows;
+}
+
+Rows some_rows(const algebra::CoarseFunctions& from, const std::vector<int>& row_number, const std::vector<int>& column_number, const Range& range) {
+  std::vector<int> origin(static_cast<std::size_t>(range.count()), -1);  // node × dimension + component
+  for (std::size_t at = 0; at < from.row->size(); ++at)
+    if (const int r = (*from.row)[at]; r >= 0 && range.has(row_number[r])) origin[row_number[r] - range.first] = static_cast<int>(at);
+  Rows rows;
+  for (const int at : origin) {
+    if (at >= 0)
+      from.each_in_row(at / from.dimension, at % from.dimension, [&](int column, double number) { rows.columns.push_back(column_number[column]), rows.values.push_back(number); });
     rows.starts.push_back(static_cast<int>(rows.columns.size()));
   }
   sort_entries(rows.starts.data(), 0, range.count(), rows.columns.data(), rows.values.data());
@@ -137,12 +150,13 @@ Piece Pieces::of(int rank) {
   const int meshes = matrix_.coarse ? static_cast<int>(matrix_.coarse->size()) : 0;
   Piece p;
   p.beside = std::move(beside_[rank]), p.first = std::move(first_[rank]);
-  p.block = numbering_.block(), p.dimension = matrix_.dimension, p.motions = static_cast<int>(near_kernel_.cols());
+  if (meshes > 0) p.dimension = matrix_.coarse->front().dimension;
+  p.block = numbering_.block(), p.motions = static_cast<int>(near_kernel_.cols());
   for (int l = 0; l <= meshes; ++l) p.own.push_back(range_of(rank, numbering_, l).count());
   for (int l = 0; l < meshes; ++l)
     p.functions.push_back(some_rows((*matrix_.coarse)[l], l == 0 ? numbering_.slot() : numbering_.functions(l), numbering_.functions(l + 1),
                                     range_of(rank, numbering_, l)));
-  if (matrix_.unknowns) p.unknowns = some_rows(*matrix_.unknowns, numbering_.slot(), numbering_.slot(), range_of(rank, numbering_, 0), numbering_.idle());
+  if (matrix_.unknowns) p.unknowns = some_rows(*matrix_.unknowns, numbering_.slot(), range_of(rank, numbering_, 0), numbering_.idle());
   p.modes = some_modes(near_kernel_, meshes > 0 ? numbering_.functions(meshes) : numbering_.slot(), range_of(rank, numbering_, meshes));
   p.matrix = rows_of(rank, finest_), p.displaced = rows_of(rank, displaced_);
   return p;

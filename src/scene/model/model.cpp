@@ -106,8 +106,8 @@ void assemble_slices(Model& model) {
   std::vector<std::vector<elasticity::FacetSpring>> springs;
   for (const Body& body : model.bodies) springs.push_back(body.facet_springs());
   const std::vector<int> nodes = problem::nodes(problem);
-  const std::vector<algebra::SparseRows> functions = problem::coarse_functions(problem);
-  const multigrid::Coupling coupling{nodes, functions, problem.blocks[0].coarse.dimension, problem.B, [&](const auto& visit) { each_pair_of_cells(model, visit); }};
+  const std::vector<algebra::CoarseFunctions> functions = problem::coarse_functions(problem);
+  const multigrid::Coupling coupling{nodes, functions, problem.B, [&](const auto& visit) { each_pair_of_cells(model, visit); }};
   take_slices(problem, multigrid::make_slices({coupling, [&](const std::vector<char>& own) { return share_of_all(model, springs, own); }, elasticity::assemble_share}));
 }
 
@@ -130,7 +130,7 @@ void add_body(const Body& body, Model& model) {
   const auto unknown = std::make_shared<const std::vector<int>>(numbering.unknown);
   block.rigid = [mesh = body.mesh, unknown, count = numbering.count()] { return elasticity::all_rigid_motions(*mesh, *unknown, count); };
   block.coarse = {mesh::coarser_nodes(*body.mesh), body.mesh->dimension(), [mesh = body.mesh, unknown, count = numbering.count()](int levels) {
-                    return elasticity::coarse_functions(*mesh, *unknown, count, levels);
+                    return elasticity::coarse_functions(*mesh, unknown, count, levels);
                   }, body.mesh->topology().order};
   block.first = model.problem.unknowns();
   model.problem.blocks.push_back(std::move(block));

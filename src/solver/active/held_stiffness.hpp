@@ -19,7 +19,7 @@ namespace dotyk::solver {
 
 /// What a solver by multigrid leaves for nested iteration.
 struct Nested {
-  std::vector<algebra::SparseRows> functions;  ///< for problem::coarser(); empty where there are several blocks, or the solver has made none
+  std::vector<algebra::CoarseFunctions> functions;  ///< for problem::coarser(); empty where there are several blocks, or the solver has made none
   algebra::SymmetricMatrix stiffness;          ///< for problem::coarser(); empty where the solver has not made it
 };
 

@@ -85,7 +85,7 @@ MakeSpdSolver incomplete_factor() {
 MakeSpdSolver multigrid(Levels levels, double most_iterations) {
   const auto make = [levels, most_iterations](const SpdSystem& s) -> std::unique_ptr<algebra::SpdSolver> {
     const std::vector<int> nodes = problem::nodes(s.problem);
-    auto coarse = levels == Levels::meshes ? problem::coarse_functions(s.problem) : std::vector<SparseRows>();
+    auto coarse = levels == Levels::meshes ? problem::coarse_functions(s.problem) : std::vector<algebra::CoarseFunctions>();
     const bool of_signs = s.basis.of_signs(), other_signs = of_signs && !s.basis.trivial();
     StoredMatrix K;
     if (!s.slices && !of_signs) K = problem::lower_stiffness(s.problem);
@@ -94,13 +94,13 @@ MakeSpdSolver multigrid(Levels levels, double most_iterations) {
     if (other_signs) changed = SignedSolver::of_K(s.changed, s.basis.signs), beside = SignedSolver::of_K(s.beside_slices, s.basis.signs);
     multigrid::Matrix matrix{other_signs && !s.slices ? K : s.lower, nodes, [&] {
                                DenseMatrix motions = all_rigid_motions(s.problem);
-                               for (const SparseRows& functions : coarse) motions = problem::at_coarse(functions, motions);
+                               for (const algebra::CoarseFunctions& functions : coarse) motions = functions.at_coarse(motions);
                                return motions;
                              }};
     matrix.rows = &s.problem.B, matrix.changed = other_signs ? &changed : &s.changed;
     matrix.slices = s.slices, matrix.beside_slices = other_signs ? &beside : &s.beside_slices;
     matrix.most_iterations = most_iterations;
-    if (!coarse.empty()) matrix.coarse = &coarse, matrix.dimension = s.problem.blocks[0].coarse.dimension, matrix.coarser = s.nested ? &s.nested->stiffness : nullptr;
+    if (!coarse.empty()) matrix.coarse = &coarse, matrix.coarser = s.nested ? &s.nested->stiffness : nullptr;
     const SparseMatrix unknowns = of_signs ? SparseMatrix() : s.basis.of_displacements(s.problem);
     if (!of_signs) matrix.unknowns = &unknowns, matrix.displaced = s.slices ? nullptr : &K;
     auto solver = multigrid::make_solver(matrix, s.monitor);
