@@ -10,6 +10,7 @@
 #include "algebra/types.hpp"
 #include "base/buckets.hpp"
 #include "base/parallel.hpp"
+#include "base/shared_list.hpp"
 
 namespace dotyk::algebra {
 
@@ -20,12 +21,12 @@ struct CoarseFunctions {
 
   int dimension = 1;                             ///< components of a node
   std::shared_ptr<const Buckets> means;          ///< node → coarse nodes, kMostMeans of them at most; null: each node is a coarse one
-  std::shared_ptr<const std::vector<int>> row;   ///< node × dimension + component → row of P, or −1; they ascend
-  std::shared_ptr<const std::vector<int>> column;  ///< the same of coarse nodes and columns
+  SharedList<int> row;                           ///< node × dimension + component → row of P, or −1; they ascend
+  SharedList<int> column;                        ///< the same of coarse nodes and columns
   int rows = 0, columns = 0;                     ///< of P; columns may be empty
 
-  int nodes() const { return static_cast<int>(row->size()) / dimension; }
-  int coarse_nodes() const { return static_cast<int>(column->size()) / dimension; }
+  int nodes() const { return static_cast<int>(row.size()) / dimension; }
+  int coarse_nodes() const { return static_cast<int>(column.size()) / dimension; }
   /// Of a node. It must outlive the span.
   std::span<const int> of(const int& node) const { return means ? (*means)[node] : std::span(&node, 1); }
   /// Calls visit(column, number) for the row of a node's component.
@@ -33,7 +34,7 @@ struct CoarseFunctions {
   void each_in_row(int node, int component, const Visit& visit) const {
     const auto coarse = of(node);
     for (const int p : coarse)
-      if (const int c = (*column)[dimension * p + component]; c >= 0) visit(c, 1.0 / static_cast<double>(coarse.size()));
+      if (const int c = column[dimension * p + component]; c >= 0) visit(c, 1.0 / static_cast<double>(coarse.size()));
   }
   /// The coarse node that a node is, or −1.
   int same(int node) const {
@@ -48,7 +49,7 @@ struct CoarseFunctions {
     parallel_ranges(nodes(), threads_for(nodes(), kFew), [&](int, int first, int end) {
       for (int i = first; i < end; ++i)
         for (int k = 0; k < dimension; ++k)
-          if (const int r = (*row)[dimension * i + k]; r >= 0) visit(r, i, k);
+          if (const int r = row[dimension * i + k]; r >= 0) visit(r, i, k);
     });
   }
 
@@ -63,7 +64,7 @@ struct CoarseFunctions {
     Vector product = Vector::Zero(columns);
     for (int i = 0; i < nodes(); ++i)
       for (int k = 0; k < dimension; ++k)
-        if (const int r = (*row)[dimension * i + k]; r >= 0) each_in_row(i, k, [&](int c, double number) { product[c] += number * x[r]; });
+        if (const int r = row[dimension * i + k]; r >= 0) each_in_row(i, k, [&](int c, double number) { product[c] += number * x[r]; });
     return product;
   }
   /// Of values in rows (one each) those of components that coarse nodes have, by columns; 0 in empty columns.
@@ -71,7 +72,7 @@ struct CoarseFunctions {
     DenseMatrix out = DenseMatrix::Zero(columns, values.cols());
     if (values.cols() == 0) return out;
     each_row([&](int r, int node, int k) {
-      if (const int p = same(node); p >= 0 && (*column)[dimension * p + k] >= 0) out.row((*column)[dimension * p + k]) = values.row(r);
+      if (const int p = same(node); p >= 0 && column[dimension * p + k] >= 0) out.row(column[dimension * p + k]) = values.row(r);
     });
     return out;
   }
@@ -94,10 +95,10 @@ struct CoarseFunctions {
   /// The same with other numbers of columns, −1 where there is none.
   CoarseFunctions with_columns(std::vector<int> number, int count) const {
     CoarseFunctions out = *this;
-    out.column = std::make_shared<const std::vector<int>>(std::move(number)), out.columns = count;
+    out.column = std::move(number), out.columns = count;
     return out;
   }
-  CoarseFunctions with_rows(std::shared_ptr<const std::vector<int>> number, int count) const {
+  CoarseFunctions with_rows(SharedList<int> number, int count) const {
     CoarseFunctions out = *this;
     out.row = std::move(number), out.rows = count;
     return out;
@@ -106,7 +107,7 @@ struct CoarseFunctions {
   CoarseFunctions compact() const {
     std::vector<int> number;
     int count = 0;
-    for (const int c : *column) number.push_back(c < 0 ? -1 : count++);
+    for (const int c : column) number.push_back(c < 0 ? -1 : count++);
     return with_columns(std::move(number), count);
   }
 };

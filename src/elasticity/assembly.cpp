@@ -182,12 +182,13 @@ algebra::StoredMatrix assemble(const Mesh& mesh, const MaterialField& material, 
 
 Load load(const Mesh& mesh, const MaterialField& material, const std::vector<FacetSpring>& springs, const std::vector<double>& force,
           const Numbering& numbering) {
-  Load load{Vector(numbering.count())};
-  const std::vector<double> held = internal_force(mesh, material, springs, numbering.prescribed);
-  for (std::size_t k = 0; k < held.size(); ++k) {
-    const double given = force.empty() ? 0 : force[k];
-    if (numbering.unknown[k] >= 0) load.f[numbering.unknown[k]] = given - held[k];
-    else load.offset += numbering.prescribed[k] * (0.5 * held[k] - given);
+  Load load{Vector::Zero(numbering.count())};
+  const std::vector<double> held = numbering.prescribed.empty() ? std::vector<double>() : internal_force(mesh, material, springs, numbering.prescribed);
+  if (force.empty() && held.empty()) return load;
+  for (std::size_t k = 0; k < numbering.unknown.size(); ++k) {
+    const double given = force.empty() ? 0 : force[k], pulled = held.empty() ? 0 : held[k];
+    if (numbering.unknown[k] >= 0) load.f[numbering.unknown[k]] = given - pulled;
+    else load.offset += numbering.value(k) * (0.5 * pulled - given);
   }
   return load;
 }

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
 #include "algebra/types.hpp"
+#include "base/shared_list.hpp"
 #include "elasticity/load.hpp"
 #include "elasticity/material.hpp"
 #include "mesh/mesh.hpp"
@@ -12,24 +14,29 @@ namespace dotyk::elasticity {
 
 /// Which displacement components of a body are unknown, and the values of the rest.
 struct Numbering {
-  std::vector<int> unknown;        ///< node × dimension + component → unknown, or -1 where prescribed
-  std::vector<double> prescribed;  ///< the same index → value (0 where unknown)
+  SharedList<int> unknown;         ///< node × dimension + component → unknown, or -1 where prescribed
+  std::vector<double> prescribed;  ///< the same index → value (0 where unknown); empty: all are 0
   std::vector<int> node;           ///< unknown → node; ascending
   int count() const { return static_cast<int>(node.size()); }
+  double value(std::size_t component) const { return prescribed.empty() ? 0 : prescribed[component]; }
+  /// The prescribed ones, 0 elsewhere.
+  std::vector<double> values() const { return prescribed.empty() ? std::vector<double>(unknown.size(), 0.0) : prescribed; }
 };
 
-/// Numbers the components not marked in `fixed` (node × dimension flags), node by node.
+/// Numbers the components not marked in `fixed` (node × dimension flags), node by node. `prescribed`: as in Numbering.
 inline Numbering number(const mesh::Mesh& mesh, const std::vector<char>& fixed,
                         std::vector<double> prescribed) {
   Numbering n;
-  n.unknown.assign(fixed.size(), -1);
+  std::vector<int> unknown(fixed.size(), -1);
   n.prescribed = std::move(prescribed);
+  n.node.reserve(static_cast<std::size_t>(std::ranges::count(fixed, 0)));
   const int dim = mesh.dimension();
   for (std::size_t i = 0; i < fixed.size(); ++i)
     if (!fixed[i]) {
-      n.unknown[i] = static_cast<int>(n.node.size());
+      unknown[i] = static_cast<int>(n.node.size());
       n.node.push_back(static_cast<int>(i) / dim);
     }
+  n.unknown = std::move(unknown);
   return n;
 }
 

@@ -4,18 +4,18 @@
 
 namespace dotyk::elasticity {
 
-std::vector<algebra::CoarseFunctions> coarse_functions(const mesh::Mesh& mesh, std::shared_ptr<const std::vector<int>> unknown, int unknowns, int levels) {
+std::vector<algebra::CoarseFunctions> coarse_functions(const mesh::Mesh& mesh, SharedList<int> unknown, int unknowns, int levels) {
   const int d = mesh.dimension();
   std::vector<algebra::CoarseFunctions> all;
   std::shared_ptr<const mesh::Coarser> coarser = mesh.coarser;
   for (int level = 0; level < levels; ++level) {
-    algebra::CoarseFunctions functions{d, coarser ? std::shared_ptr<const Buckets>(coarser, &coarser->means) : nullptr, std::move(unknown), nullptr, unknowns, 0};
+    algebra::CoarseFunctions functions{d, coarser ? std::shared_ptr<const Buckets>(coarser, &coarser->means) : nullptr, unknown, {}, unknowns, 0};
     const int coarse = coarser ? coarser->node_count : functions.nodes();
     std::vector<int> column(static_cast<std::size_t>(d) * coarse, -1);
     functions.each_row([&](int, int node, int k) {
       if (const int p = functions.same(node); p >= 0) column[d * p + k] = d * p + k;
     });
-    unknown = functions.column = std::make_shared<const std::vector<int>>(std::move(column));
+    unknown = functions.column = std::move(column);
     unknowns = functions.columns = d * coarse;
     all.push_back(std::move(functions));
     if (coarser) coarser = coarser->next;

@@ -84,7 +84,7 @@ algebra::StoredMatrix assemble_body(Lists lists) {
     }
   }
   const std::vector<int>& fixed = lists.whole[kFixed];
-  return assemble(mesh, MaterialField(lists), springs, number(mesh, {fixed.begin(), fixed.end()}, std::vector<double>(fixed.size(), 0.0)));
+  return assemble(mesh, MaterialField(lists), springs, number(mesh, {fixed.begin(), fixed.end()}, {}));
 }
 
 }  // namespace

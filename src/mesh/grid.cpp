@@ -103,6 +103,9 @@ Mesh grid(int dimension, const double* from, const double* to, const int* cells,
     count[i] = cells[i];
     for (int k = i + 1; k < 3; ++k) stride[k] *= cells[i] + 1;
   }
+  const std::vector<std::vector<int>>& corners = corners_of(dimension, simplex);
+  mesh.coordinates.reserve(tick[0].size() * std::max<std::size_t>(tick[1].size(), 1) * tick[2].size() * dimension);
+  mesh.cells.reserve(static_cast<std::size_t>(count[0]) * count[1] * count[2] * corners.size() * corners[0].size());
   for (const double z : tick[2])
     for (const double y : tick[1])
       for (const double x : tick[0]) {
@@ -112,7 +115,7 @@ Mesh grid(int dimension, const double* from, const double* to, const int* cells,
   for (int k = 0; k < count[2]; ++k)
     for (int j = 0; j < count[1]; ++j)
       for (int i = 0; i < count[0]; ++i)
-        for (const std::vector<int>& bits : corners_of(dimension, simplex)) {
+        for (const std::vector<int>& bits : corners) {
           const int at[3] = {i, j, k};
           for (const int corner : bits) {
             int node = 0;

@@ -31,8 +31,8 @@ CoarserBlock coarser(const Block& fine, std::vector<algebra::CoarseFunctions> al
   block.name = fine.name;
   block.f = fine.f.isZero(0) ? Vector(Vector::Zero(functions.columns)) : functions.transposed_times(fine.f);
   block.offset = fine.offset;
-  for (std::size_t k = 0; k < functions.column->size(); ++k)
-    if ((*functions.column)[k] >= 0) block.node.push_back(static_cast<int>(k) / functions.dimension);
+  for (std::size_t k = 0; k < functions.column.size(); ++k)
+    if (functions.column[k] >= 0) block.node.push_back(static_cast<int>(k) / functions.dimension);
   block.kernel = functions.at_coarse(fine.kernel);
   block.motions = fine.motions;
   if (fine.rigid) block.rigid = [rigid = fine.rigid, functions] { return functions.at_coarse(rigid()); };
@@ -47,7 +47,7 @@ CoarserBlock coarser(const Block& fine, std::vector<algebra::CoarseFunctions> al
 /// The component of its node that an unknown is.
 int component_of(const algebra::CoarseFunctions& functions, int node, int unknown) {
   int k = 0;
-  while ((*functions.row)[functions.dimension * node + k] != unknown) ++k;
+  while (functions.row[functions.dimension * node + k] != unknown) ++k;
   return k;
 }
 
@@ -108,12 +108,12 @@ namespace {
 
 /// Functions of several bodies as those of one.
 algebra::CoarseFunctions joined(const std::vector<algebra::CoarseFunctions>& of_blocks) {
-  algebra::CoarseFunctions all{of_blocks[0].dimension, nullptr, nullptr, nullptr, 0, 0};
+  algebra::CoarseFunctions all{of_blocks[0].dimension, nullptr, {}, {}, 0, 0};
   std::vector<int> row, column;
   int nodes = 0;
   for (const algebra::CoarseFunctions& own : of_blocks) {
-    for (const int r : *own.row) row.push_back(r < 0 ? -1 : all.rows + r);
-    for (const int c : *own.column) column.push_back(c < 0 ? -1 : all.columns + c);
+    for (const int r : own.row) row.push_back(r < 0 ? -1 : all.rows + r);
+    for (const int c : own.column) column.push_back(c < 0 ? -1 : all.columns + c);
     nodes += own.nodes(), all.rows += own.rows, all.columns += own.columns;
   }
   all.means = std::make_shared<const Buckets>(nodes, [&](auto&& put) {
@@ -124,7 +124,7 @@ algebra::CoarseFunctions joined(const std::vector<algebra::CoarseFunctions>& of_
       coarse += own.coarse_nodes();
     }
   });
-  all.row = std::make_shared<const std::vector<int>>(std::move(row)), all.column = std::make_shared<const std::vector<int>>(std::move(column));
+  all.row = std::move(row), all.column = std::move(column);
   return all;
 }
 

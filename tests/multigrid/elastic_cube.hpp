@@ -102,8 +102,7 @@ inline algebra::CoarseFunctions functions_of_coarser(const ElasticCube& cube, in
       if (high != low) put(i, high);
     }
   });
-  return {3, means, std::make_shared<const std::vector<int>>(std::move(row)), std::make_shared<const std::vector<int>>(std::move(column)),
-          static_cast<int>(cube.node.size()), columns};
+  return {3, means, std::move(row), std::move(column), static_cast<int>(cube.node.size()), columns};
 }
 
 inline algebra::SparseRows as_matrix(const algebra::CoarseFunctions& functions) {

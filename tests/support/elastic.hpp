@@ -105,7 +105,7 @@ inline System system_of(const Mesh& m, const elasticity::MaterialField& material
 
 /// Nodal displacement (node × dimension) of the assembled system.
 inline std::vector<double> solve(const System& s, const Numbering& numbering) {
-  std::vector<double> u = numbering.prescribed;
+  std::vector<double> u = numbering.values();
   if (numbering.count() == 0) return u;
   const algebra::Vector x = algebra::Ldlt(full(s.K)).solve(s.f);
   for (std::size_t k = 0; k < u.size(); ++k)
@@ -115,7 +115,7 @@ inline std::vector<double> solve(const System& s, const Numbering& numbering) {
 
 /// The same by a sparse factorisation, for finer meshes.
 inline std::vector<double> solve_sparse(const System& s, const Numbering& numbering) {
-  std::vector<double> u = numbering.prescribed;
+  std::vector<double> u = numbering.values();
   algebra::Cholesky cholesky(s.K, numbering.node, {});
   if (!cholesky.factor(s.K)) return {};
   const algebra::Vector x = cholesky.solve(s.f);

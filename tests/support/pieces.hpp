@@ -88,7 +88,7 @@ inline Numbering add(problem::Problem& p, const CutBody& body) {
         if (own < 0) continue;
         s.node.push_back(node[n]);
         s.unknown.push_back(unknown < 0 ? -1 : p.blocks.back().first + unknown);
-        if (unknown < 0) s.value[own] = whole.numbering.prescribed[node[n] * dim + i];
+        if (unknown < 0) s.value[own] = whole.numbering.value(node[n] * dim + i);
       }
     p.subdomains.push_back(std::move(s));
   }

@@ -93,7 +93,7 @@ class Sharing {
   /// Nodes here are those with unknowns; `finest` counts all of them.
   void take_finest(const algebra::CoarseFunctions& finest) {
     for (int i = 0; i < finest.nodes(); ++i)
-      if (std::any_of(finest.row->begin() + i * finest.dimension, finest.row->begin() + (i + 1) * finest.dimension, [](int r) { return r >= 0; })) finest_.push_back(i);
+      if (std::any_of(finest.row.begin() + i * finest.dimension, finest.row.begin() + (i + 1) * finest.dimension, [](int r) { return r >= 0; })) finest_.push_back(i);
   }
   /// Calls visit(node, component), both as the functions have them, for the rows of a node of a level: supports may take components away.
   template <class Visit>
@@ -101,7 +101,7 @@ class Sharing {
     const algebra::CoarseFunctions& functions = coupling_.coarse[level];
     const int i = level == 0 ? finest_[node] : node;
     for (int k = 0; k < functions.dimension; ++k)
-      if ((*functions.row)[functions.dimension * i + k] >= 0) visit(i, k);
+      if (functions.row[functions.dimension * i + k] >= 0) visit(i, k);
   }
 
   /// Of each node the first one of the next level whose function is not zero there; where there is none, that of the node before.
@@ -208,7 +208,7 @@ Numbering::Numbering(const Coupling& coupling, int ranks) {
 
 Numbering::Numbering(const Numbering& finer, const algebra::CoarseFunctions& functions)
     : block_(functions.dimension), functions_(finer.functions_.begin() + 1, finer.functions_.end()), first_(finer.first_.begin() + 1, finer.first_.end()) {
-  for (std::size_t k = 0; k < functions.column->size(); ++k) ((*functions.column)[k] >= 0 ? slot_ : idle_).push_back(finer.functions_[0][k]);
+  for (std::size_t k = 0; k < functions.column.size(); ++k) (functions.column[k] >= 0 ? slot_ : idle_).push_back(finer.functions_[0][k]);
   take_unknowns();
 }
 

@@ -59,8 +59,8 @@ Rows some_rows(const algebra::SparseRows& from, const std::vector<int>& number, 
 
 Rows some_rows(const algebra::CoarseFunctions& from, const std::vector<int>& row_number, const std::vector<int>& column_number, const Range& range) {
   std::vector<int> origin(static_cast<std::size_t>(range.count()), -1);  // node × dimension + component
-  for (std::size_t at = 0; at < from.row->size(); ++at)
-    if (const int r = (*from.row)[at]; r >= 0 && range.has(row_number[r])) origin[row_number[r] - range.first] = static_cast<int>(at);
+  for (std::size_t at = 0; at < from.row.size(); ++at)
+    if (const int r = from.row[at]; r >= 0 && range.has(row_number[r])) origin[row_number[r] - range.first] = static_cast<int>(at);
   Rows rows;
   for (const int at : origin) {
     if (at >= 0)

@@ -85,7 +85,7 @@ FreeJumps::Node FreeJumps::of_node(const Side& side, int node) const {
   for (int i = 0; i < dim_; ++i) {
     const std::size_t at = static_cast<std::size_t>(node) * dim_ + i;
     P(i, i) = side.numbering->unknown[at] >= 0;
-    if (side.numbering->unknown[at] < 0) result.given[i] = side.numbering->prescribed[at];
+    if (side.numbering->unknown[at] < 0) result.given[i] = side.numbering->value(at);
   }
   const auto found = side.conditions.find(node);
   if (found == side.conditions.end()) return result;

@@ -127,8 +127,8 @@ void add_body(const Body& body, Model& model) {
   block.node = numbering.node;
   block.kernel = std::move(rigid.modes);
   block.motions = std::move(rigid.motions);
-  const auto unknown = std::make_shared<const std::vector<int>>(numbering.unknown);
-  block.rigid = [mesh = body.mesh, unknown, count = numbering.count()] { return elasticity::all_rigid_motions(*mesh, *unknown, count); };
+  const SharedList<int>& unknown = numbering.unknown;
+  block.rigid = [mesh = body.mesh, unknown, count = numbering.count()] { return elasticity::all_rigid_motions(*mesh, unknown, count); };
   block.coarse = {mesh::coarser_nodes(*body.mesh), body.mesh->dimension(), [mesh = body.mesh, unknown, count = numbering.count()](int levels) {
                     return elasticity::coarse_functions(*mesh, unknown, count, levels);
                   }, body.mesh->topology().order};
@@ -163,7 +163,7 @@ std::vector<double> spread(const Numbering& numbering, const algebra::Vector& x,
 }
 
 std::vector<double> Model::displacement(int body, const algebra::Vector& u) const {
-  return spread(numbering[body], u.segment(problem.blocks[body].first, numbering[body].count()), numbering[body].prescribed);
+  return spread(numbering[body], u.segment(problem.blocks[body].first, numbering[body].count()), numbering[body].values());
 }
 
 namespace {

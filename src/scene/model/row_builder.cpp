@@ -55,7 +55,7 @@ void RowBuilder::collect(int body, int node, const Point& direction, double sign
       continue;
     }
     model_.held.push_back({rows.count(), body, at, sign * direction[i]});
-    gap -= sign * direction[i] * numbering.prescribed[at];
+    gap -= sign * direction[i] * numbering.value(at);
   }
 }
 

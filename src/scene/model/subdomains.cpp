@@ -46,8 +46,7 @@ elasticity::Numbering number(const mesh::Submesh& part, const elasticity::Number
   std::vector<char> held(part.mesh.coordinates.size(), 0);
   for (std::size_t k = 0; k < held.size() && !support_rows; ++k)
     held[k] = whole.unknown[static_cast<std::size_t>(part.node[k / dim]) * dim + k % dim] < 0;
-  std::vector<double> none(held.size(), 0.0);
-  return elasticity::number(part.mesh, held, std::move(none));
+  return elasticity::number(part.mesh, held, {});
 }
 
 /// Gives every spring to the piece that its facet's cell is in. `first`: the body's first piece.
@@ -221,8 +220,8 @@ void load_subdomains(Model& model) {
   for (Subdomain& s : model.problem.subdomains)
     for (int i = 0; i < s.size(); ++i) {
       const std::size_t k = load_of(s, i);
-      s.f[i] = (support_rows ? model.bodies[s.block].force[k] : model.problem.blocks[s.block].f[k]) / copies[s.block][k];
-      s.value[i] = support_rows ? model.numbering[s.block].prescribed[k] : 0;
+      s.f[i] = (support_rows ? model.bodies[s.block].force_at(k) : model.problem.blocks[s.block].f[k]) / copies[s.block][k];
+      s.value[i] = support_rows ? model.numbering[s.block].value(k) : 0;
     }
 }
 

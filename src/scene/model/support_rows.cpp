@@ -128,8 +128,9 @@ void add_law_loads(Body& body) {
   for (const LawSupport& support : body.laws)
     for (const contact::NodeSide& side : support.nodes) {
       const Point force = law_load(support, side, dim);
+      if (force == Point{0, 0, 0}) continue;
       for (const contact::NodeWeight& own : side.own)
-        for (int i = 0; i < dim; ++i) body.force[static_cast<std::size_t>(own.node) * dim + i] += own.weight * force[i];
+        for (int i = 0; i < dim; ++i) nodal_loads(body)[static_cast<std::size_t>(own.node) * dim + i] += own.weight * force[i];
     }
 }
 

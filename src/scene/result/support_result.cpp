@@ -89,6 +89,7 @@ Point Solution::reaction(const Part& part) const {
   std::vector<double> missing =
       elasticity::internal_force(*body.mesh, body.material, body.facet_springs(), displacement(index));
   std::vector<double> other = body.force;
+  other.resize(missing.size());  // zeros where the body has no loads
   for (const HeldEntry& entry : model_.held)
     if (entry.body == index) other[entry.component] -= entry.value * result_.state.lambda[entry.row];
   Point sum{0, 0, 0};

@@ -46,7 +46,6 @@ std::shared_ptr<Body> make_body(std::string name, std::shared_ptr<const mesh::Me
   body->name = std::move(name);
   body->mesh = std::move(mesh);
   body->material = std::move(material);
-  body->force.assign(body->mesh->coordinates.size(), 0.0);
   if (force) load_volume(*body, force);
   return body;
 }

@@ -82,7 +82,7 @@ struct LoadArrow {
 /// Loads of one name, which the steps of a history scale apart from the others.
 struct LoadCase {
   std::string name;
-  std::vector<double> force;  ///< nodal loads, node × dimension
+  std::vector<double> force;  ///< nodal loads, node × dimension; empty: none
 };
 
 struct SpringPatch {
@@ -119,7 +119,8 @@ struct Body {
   std::vector<LawSupport> laws;
   std::optional<VolumeLoad> volume_load;  ///< of no case
   std::vector<FacetLoad> facet_loads;
-  std::vector<double> force;  ///< nodal loads of no case, node × dimension: the sums of what these loads give (see sum_loads)
+  std::vector<double> force;  ///< nodal loads of no case, node × dimension: the sums of what these loads give (see sum_loads); empty: none
+  double force_at(std::size_t component) const { return force.empty() ? 0 : force[component]; }
   std::vector<LoadCase> cases;
   /// The body that this one is another design of (its nodes moved), never one that is itself another's; null: of none.
   std::shared_ptr<const Body> origin;
@@ -172,6 +173,8 @@ void load_volume(Body& body, const elasticity::VectorField& force);
 void load(Part& part, const elasticity::VectorField& traction, const std::string& load_case = {});
 /// Positive along the inward normal.
 void pressure(Part& part, const elasticity::ScalarField& value, const std::string& load_case = {});
+/// The nodal loads of a case, zeros where there were none.
+std::vector<double>& nodal_loads(Body& body, const std::string& load_case = {});
 /// Sums the nodal loads of all cases anew from the body's loads, on its mesh as it is.
 void sum_loads(Body& body);
 /// The loads on parts, those of each facet together.

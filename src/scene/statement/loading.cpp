@@ -57,7 +57,7 @@ Body Loading::applied_to(const Body& body) const {
   for (double& f : scaled.force) f *= rest;
   if (scaled.volume_load) scaled.volume_load->factor *= rest;
   for (const LoadCase& one : body.cases)
-    for (std::size_t k = 0; k < one.force.size(); ++k) scaled.force[k] += of(one.name) * one.force[k];
+    for (std::size_t k = 0; k < one.force.size(); ++k) nodal_loads(scaled)[k] += of(one.name) * one.force[k];
   scaled.cases.clear();
   for (Support& support : scaled.supports)
     for (mesh::Point& value : support.values)

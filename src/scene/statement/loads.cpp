@@ -12,15 +12,6 @@ namespace {
 using elasticity::FacetPoint;
 using mesh::Point;
 
-/// The nodal loads of a case, made where there are none yet.
-std::vector<double>& nodal_loads(Body& body, const std::string& load_case) {
-  if (load_case.empty()) return body.force;
-  for (LoadCase& known : body.cases)
-    if (known.name == load_case) return known.force;
-  body.cases.push_back({load_case, std::vector<double>(body.force.size(), 0.0)});
-  return body.cases.back().force;
-}
-
 int values_per_point(const FacetLoad& load, int dimension) { return load.pressure ? 1 : dimension; }
 
 void add_nodal(Body& body, const FacetLoad& load) {
@@ -42,6 +33,18 @@ void add(Part& part, const std::string& load_case, bool pressure, AddValues&& ad
 }
 
 }  // namespace
+
+std::vector<double>& nodal_loads(Body& body, const std::string& load_case) {
+  const auto made = [&](std::vector<double>& force) -> std::vector<double>& {
+    if (force.empty()) force.assign(body.mesh->coordinates.size(), 0.0);
+    return force;
+  };
+  if (load_case.empty()) return made(body.force);
+  for (LoadCase& known : body.cases)
+    if (known.name == load_case) return made(known.force);
+  body.cases.push_back({load_case, {}});
+  return made(body.cases.back().force);
+}
 
 Point FacetLoad::traction(std::size_t facet, const FacetPoint& p, int dimension) const {
   if (pressure) return mesh::times(-pressure_at(facet, p), p.normal);
@@ -89,18 +92,18 @@ void load_volume(Body& body, const elasticity::VectorField& force) {
     if (known == 0 || !load.uniform) values.insert(values.end(), f.begin(), f.begin() + dim);
     ++known;
     return f;
-  }), body.force);
+  }), nodal_loads(body));
   load.values = std::make_shared<const std::vector<double>>(std::move(values));
   body.volume_load = std::move(load);
 }
 
 void sum_loads(Body& body) {
   const int dim = body.dimension();
-  std::fill(body.force.begin(), body.force.end(), 0.0);
-  for (LoadCase& one : body.cases) std::fill(one.force.begin(), one.force.end(), 0.0);
+  body.force.clear();
+  for (LoadCase& one : body.cases) one.force.clear();
   if (body.volume_load)
     elasticity::add_body_force(
-        *body.mesh, elasticity::CellField([&](const elasticity::CellPoint& p) { return body.volume_load->at(p.cell, p.index, dim); }), body.force);
+        *body.mesh, elasticity::CellField([&](const elasticity::CellPoint& p) { return body.volume_load->at(p.cell, p.index, dim); }), nodal_loads(body));
   for (const FacetLoad& load : body.facet_loads) add_nodal(body, load);
 }
 

@@ -70,7 +70,7 @@ RepeatedSolution solve_load_cases(const Scene& scene, const std::vector<std::str
   for (std::size_t k = 0; k < cases.size(); ++k) {
     reload(scene, {body}, only(scene, cases[k]), model, clock);
     B.col(static_cast<Eigen::Index>(k)) = model.problem.blocks.front().f;
-    prescribed.push_back(model.numbering.front().prescribed);
+    prescribed.push_back(model.numbering.front().values());
   }
   monitor.phase(text("solving ", cases.size(), " systems"));
   algebra::RepeatedSystems systems(block.K, block.node, settings);
@@ -96,7 +96,7 @@ RepeatedSolution solve_sensitivities(const Scene& scene, const std::vector<std::
   RepeatedSolution solution;
   const Vector u = systems.solve(block.f, monitor);
   solution.names = {"analysis"};
-  solution.solutions.push_back(spread(numbering, u, numbering.prescribed));
+  solution.solutions.push_back(spread(numbering, u, numbering.values()));
   solution.energies.push_back(u.dot(block.f));
   DenseMatrix B(block.size(), velocities.size());
   for (std::size_t k = 0; k < velocities.size(); ++k)
