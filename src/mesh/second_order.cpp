@@ -93,7 +93,8 @@ Mesh second_order(Mesh first, Monitor* watch) {
 }
 
 Mesh of_family(Mesh first, Family family) {
-  return family == Family::p2 || family == Family::q2 ? second_order(std::move(first)) : first;
+  if (family == Family::p2 || family == Family::q2) return second_order(std::move(first));
+  return first;
 }
 
 namespace {

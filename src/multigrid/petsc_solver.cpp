@@ -40,7 +40,8 @@ class PetscSolver final : public algebra::SpdSolver {
       const Workers of_coarser = workers_.next();
       cycle_ = std::make_unique<Cycle>(ranks, share_out(pieces, asked ? of_coarser.number() : 0));
       if (asked)
-        coarser = std::make_shared<const RankSlices>(of_coarser, Numbering(*numbering_, matrix.coarse->front()), cycle_->take_coarser());
+        coarser = std::make_shared<const RankSlices>(of_coarser, Numbering(*numbering_, matrix.coarse->front()), cycle_->take_coarser(),
+                                                     without_first(cycle_->functions()));
     });
     workers_.made();
     alone_.unlock();

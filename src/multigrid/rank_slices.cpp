@@ -14,6 +14,7 @@
 #include "base/text.hpp"
 #include "multigrid/processes/petsc_session.hpp"
 #include "multigrid/rows/own_rows.hpp"
+#include "multigrid/shares/functions.hpp"
 
 namespace dotyk::multigrid {
 
@@ -48,8 +49,8 @@ HalfRows assembled(Assemble assemble, Lists lists, const OwnNumbers& own) {
 }
 
 /// Rank 0 learns the diagonal in take_diagonal().
-std::unique_ptr<Slice> told_slice(const Ranks& ranks, HalfRows rows, const std::vector<int>& idle) {
-  auto slice = std::make_unique<Slice>(ranks, std::move(rows), idle);
+std::unique_ptr<Slice> told_slice(const Ranks& ranks, HalfRows rows, const std::vector<int>& idle, AllOwnFunctions functions) {
+  auto slice = std::make_unique<Slice>(ranks, std::move(rows), idle, std::move(functions));
   ranks.send(0, slice->diagonal());
   ranks.send(0, std::vector<double>{static_cast<double>(slice->most_entries()), slice->entries()});
   return slice;
@@ -57,10 +58,10 @@ std::unique_ptr<Slice> told_slice(const Ranks& ranks, HalfRows rows, const std::
 
 }  // namespace
 
-std::unique_ptr<Slice> receive_rest(const Ranks& ranks, HalfRows rows) {
+std::unique_ptr<Slice> receive_rest(const Ranks& ranks, HalfRows rows, AllOwnFunctions functions) {
   std::vector<int> idle;
   ranks.receive(0, idle);
-  return told_slice(ranks, std::move(rows), idle);
+  return told_slice(ranks, std::move(rows), idle, std::move(functions));
 }
 
 std::unique_ptr<Slice> receive_slice(const Ranks& ranks, Assemble assemble) {
@@ -72,7 +73,8 @@ std::unique_ptr<Slice> receive_slice(const Ranks& ranks, Assemble assemble) {
   lists.whole.resize(static_cast<std::size_t>(sizes[3])), lists.real.resize(static_cast<std::size_t>(sizes[4]));
   for (auto& list : lists.whole) ranks.receive(0, list);
   for (auto& list : lists.real) ranks.receive(0, list);
-  return told_slice(ranks, assembled(assemble, std::move(lists), own), own.idle);
+  AllOwnFunctions functions = receive_own_functions(ranks, 0);
+  return told_slice(ranks, assembled(assemble, std::move(lists), own), own.idle, std::move(functions));
 }
 
 void tell_some(const Ranks& ranks, const Slice& slice) {
@@ -91,10 +93,10 @@ RankSlices::RankSlices(Workers workers, const Shared& shared)
   made_ = true;
 }
 
-RankSlices::RankSlices(Workers workers, Numbering numbering, HalfRows own) : RankSlices(workers, std::move(numbering)) {
+RankSlices::RankSlices(Workers workers, Numbering numbering, HalfRows own, AllOwnFunctions functions) : RankSlices(workers, std::move(numbering)) {
   const Ranks& ranks = workers_.ranks();
   for (int r = 1; r < ranks.count(); ++r) ranks.send(r, idle_of(r));
-  slice_ = std::make_unique<Slice>(ranks, std::move(own), idle_of(0));
+  slice_ = std::make_unique<Slice>(ranks, std::move(own), idle_of(0), std::move(functions));
   take_diagonal();
   workers_.made();
   made_ = true;
@@ -122,9 +124,10 @@ std::unique_ptr<Slice> RankSlices::share_out(const Shared& matrix) const {
   const int block = numbering_->block();
   std::vector<Share> some;
   std::vector<OwnNumbers> numbers;
+  std::vector<AllOwnFunctions> functions;
   for (int end = ranks.count(), begin; end > 0; end = begin) {
     begin = std::max(0, end - cores());
-    some.assign(static_cast<std::size_t>(end - begin), {}), numbers.assign(some.size(), {});
+    some.assign(static_cast<std::size_t>(end - begin), {}), numbers.assign(some.size(), {}), functions.assign(some.size(), nullptr);
     parallel_for(static_cast<int>(some.size()), [&](int k) {
       const int from = first[begin + k], to = first[begin + k + 1];
       std::vector<char> own(slot.size());
@@ -132,14 +135,16 @@ std::unique_ptr<Slice> RankSlices::share_out(const Shared& matrix) const {
       some[k] = matrix.share(own);
       numbers[k] = {block, from / block, (to - from) / block, {}, idle_of(begin + k)};
       for (const int unknown : some[k].unknowns) numbers[k].slot.push_back(slot[unknown]);
+      functions[k] = own_functions(matrix.coupling.coarse, *numbering_, begin + k);
     });
     for (int r = std::max(1, begin); r < end; ++r) {
       workers_.tell(Task::slice, r);
       send(ranks, r, some[r - begin].lists, numbers[r - begin]);
+      send(ranks, r, functions[r - begin]);
       some[r - begin] = {};
     }
   }
-  return std::make_unique<Slice>(ranks, assembled(matrix.assemble, std::move(some[0].lists), numbers[0]), numbers[0].idle);
+  return std::make_unique<Slice>(ranks, assembled(matrix.assemble, std::move(some[0].lists), numbers[0]), numbers[0].idle, functions[0]);
 }
 
 void RankSlices::take_diagonal() {

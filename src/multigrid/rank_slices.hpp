@@ -15,8 +15,8 @@ namespace dotyk::multigrid {
 class RankSlices final : public algebra::SlicedMatrix {
  public:
   RankSlices(Workers workers, const Shared& matrix);
-  /// Takes rows that the ranks have already; `own`: rank 0's. The others call receive_rest().
-  RankSlices(Workers workers, Numbering numbering, HalfRows own);
+  /// Takes rows and functions that the ranks have already; `own` and `functions`: rank 0's. The others call receive_rest().
+  RankSlices(Workers workers, Numbering numbering, HalfRows own, AllOwnFunctions functions);
   ~RankSlices() override;
 
   algebra::Vector times(const Eigen::Ref<const algebra::Vector>& x) const override;
@@ -53,7 +53,7 @@ class RankSlices final : public algebra::SlicedMatrix {
 
 /// What ranks other than 0 do when rank 0 makes slices, or asks for entries.
 std::unique_ptr<Slice> receive_slice(const Ranks& ranks, Assemble assemble);
-std::unique_ptr<Slice> receive_rest(const Ranks& ranks, HalfRows rows);
+std::unique_ptr<Slice> receive_rest(const Ranks& ranks, HalfRows rows, AllOwnFunctions functions);
 void tell_some(const Ranks& ranks, const Slice& slice);
 
 }  // namespace dotyk::multigrid

@@ -18,6 +18,7 @@ class Cycle {
 
   bool set(const Change& change);
   HalfRows take_coarser() { return hierarchy_.take_coarser(); }  ///< as in Hierarchy
+  const AllOwnFunctions& functions() const { return hierarchy_.functions(); }
 
   struct Solution {
     bool found = false;  ///< else x has no meaning: an indefinite matrix, too many iterations

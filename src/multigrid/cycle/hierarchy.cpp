@@ -143,7 +143,7 @@ void Hierarchy::coarsen() {
   const bool same = piece_.unknowns.columns.empty();
   OwnedMat S;
   if (!ranks_.all(same)) S = oblong(piece_.unknowns, piece_.own[0], {piece_.block, piece_.block});
-  if (!piece_.functions.empty()) {
+  if (meshes() > 0) {
     take(piece_.beside);
     take_functions(S);
     if (piece_.coarser) compute_coarser();
@@ -171,11 +171,11 @@ void Hierarchy::multiply(int level) {
 }
 
 void Hierarchy::take_functions(Mat S) {
-  for (std::size_t l = 0; l < piece_.functions.size(); ++l) {
-    OwnedMat P = oblong(piece_.functions[l], piece_.own[l + 1], {l == 0 ? piece_.block : piece_.dimension, piece_.dimension});
+  for (int l = 0; l < meshes(); ++l) {
+    OwnedMat P = oblong(rows_.emplace_back((*piece_.functions)[l].rows(piece_.dimension)), piece_.own[l + 1], {l == 0 ? piece_.block : piece_.dimension, piece_.dimension});
     if (l == 0 && S) P = product(S, P);
     interpolations_.push_back(std::move(P));
-    multiply(static_cast<int>(l));
+    multiply(l);
     add_level(products_[l].pattern(matrix(l), interpolations_[l]));
   }
 }

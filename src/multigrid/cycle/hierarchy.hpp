@@ -23,10 +23,11 @@ class Hierarchy {
 
   /// Of the matrix of the next coarser mesh this rank's rows, without Piece::first, where the piece asks for them; once.
   HalfRows take_coarser() { return std::move(coarser_); }
+  const AllOwnFunctions& functions() const { return piece_.functions; }
   int levels() const { return static_cast<int>(matrices_.size()); }
   HalfMatrix& matrix(int level) { return *matrices_[level]; }             ///< from 0, the finest
   Mat interpolation(int level) const { return interpolations_[level]; }   ///< from `level` + 1 to `level`
-  int meshes() const { return static_cast<int>(piece_.functions.size()); }  ///< coarser ones: of so many levels after the finest
+  int meshes() const { return static_cast<int>(piece_.functions->size()); }  ///< coarser ones: of so many levels after the finest
   double bytes() const;  ///< of this rank
 
  private:
@@ -49,9 +50,9 @@ class Hierarchy {
   void truncate(const std::vector<int>& held);
 
   const Ranks ranks_;
-  Piece piece_;                                 // whose functions' arrays are the first interpolations'
+  Piece piece_;
   HalfRows coarser_;
-  std::deque<Rows> others_;                     // beside them: in columns of other ranks
+  std::deque<Rows> rows_, others_;              // of the first interpolations: in own columns, in those of other ranks
   std::vector<std::shared_ptr<HalfMatrix>> matrices_;  // the first may be lent by a slice
   std::vector<OwnedMat> interpolations_;
   std::vector<Galerkin> products_;              // of each interpolation

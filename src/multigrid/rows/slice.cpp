@@ -59,8 +59,8 @@ std::vector<long double> sum(const std::vector<double>& high, const std::vector<
 
 }  // namespace
 
-Slice::Slice(const Ranks& ranks, HalfRows rows, const std::vector<int>& idle)
-    : matrix_(std::make_shared<LentMatrix>(HalfMatrix(ranks, with_idle(ranks, std::move(rows), idle)))) {}
+Slice::Slice(const Ranks& ranks, HalfRows rows, const std::vector<int>& idle, AllOwnFunctions functions)
+    : matrix_(std::make_shared<LentMatrix>(HalfMatrix(ranks, with_idle(ranks, std::move(rows), idle)))), functions_(std::move(functions)) {}
 
 std::vector<double> Slice::diagonal() const {
   return matrix_->as_before([](HalfMatrix& A) {

@@ -10,6 +10,7 @@
 
 #include "algebra/vector_parts.hpp"
 #include "multigrid/rows/half_matrix.hpp"
+#include "multigrid/rows/own_functions.hpp"
 
 namespace dotyk::multigrid {
 
@@ -58,8 +59,8 @@ class LentMatrix {
 /// multiply() and the constructor are collective.
 class Slice {
  public:
-  /// `idle`: own rows without unknown. Their diagonal becomes the mean of all others.
-  Slice(const Ranks& ranks, HalfRows rows, const std::vector<int>& idle);
+  /// `idle`: own rows without unknown. Their diagonal becomes the mean of all others. `functions`: for solvers.
+  Slice(const Ranks& ranks, HalfRows rows, const std::vector<int>& idle, AllOwnFunctions functions);
 
   HalfRows rows() const {
     return matrix_->as_before([](HalfMatrix& A) { return A.stored(); });
@@ -70,6 +71,7 @@ class Slice {
     if (matrix_.use_count() > 1) return nullptr;
     return {matrix_.get(), [lent = matrix_](LentMatrix*) { lent->give_back(); }};
   }
+  const AllOwnFunctions& functions() const { return functions_; }
   std::vector<double> diagonal() const;
   int most_entries() const;  ///< as in algebra::SlicedMatrix
   double entries() const;    ///< of all own rows
@@ -88,6 +90,7 @@ class Slice {
 
  private:
   std::shared_ptr<LentMatrix> matrix_;
+  AllOwnFunctions functions_;
 };
 
 }  // namespace dotyk::multigrid

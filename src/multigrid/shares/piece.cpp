@@ -8,6 +8,7 @@
 #include "algebra/entries_of.hpp"
 #include "multigrid/rows/own_rows.hpp"
 #include "multigrid/shares/changes.hpp"
+#include "multigrid/shares/functions.hpp"
 
 namespace dotyk::multigrid {
 
@@ -57,20 +58,6 @@ Rows some_rows(const algebra::SparseRows& from, const std::vector<int>& number, 
   return rows;
 }
 
-Rows some_rows(const algebra::CoarseFunctions& from, const std::vector<int>& row_number, const std::vector<int>& column_number, const Range& range) {
-  std::vector<int> origin(static_cast<std::size_t>(range.count()), -1);  // node × dimension + component
-  for (std::size_t at = 0; at < from.row.size(); ++at)
-    if (const int r = from.row[at]; r >= 0 && range.has(row_number[r])) origin[row_number[r] - range.first] = static_cast<int>(at);
-  Rows rows;
-  for (const int at : origin) {
-    if (at >= 0)
-      from.each_in_row(at / from.dimension, at % from.dimension, [&](int column, double number) { rows.columns.push_back(column_number[column]), rows.values.push_back(number); });
-    rows.starts.push_back(static_cast<int>(rows.columns.size()));
-  }
-  sort_entries(rows.starts.data(), 0, range.count(), rows.columns.data(), rows.values.data());
-  return rows;
-}
-
 std::vector<double> some_modes(const algebra::DenseMatrix& modes, const std::vector<int>& number, const Range& range) {
   std::vector<double> some(static_cast<std::size_t>(range.count() * modes.cols()), 0.0);
   for (Eigen::Index i = 0; i < modes.rows(); ++i)
@@ -100,13 +87,11 @@ void visit_all(Change& c, Visit&& visit) {
 
 template <class Visit>
 void visit_all(Piece& p, Visit&& visit) {
-  std::vector<int> sizes{p.block, p.dimension, p.motions, p.coarser, p.slices, static_cast<int>(p.functions.size())};
+  std::vector<int> sizes{p.block, p.dimension, p.motions, p.coarser, p.slices};
   visit(sizes);
   p.block = sizes[0], p.dimension = sizes[1], p.motions = sizes[2], p.coarser = sizes[3], p.slices = sizes[4];
-  p.functions.resize(static_cast<std::size_t>(sizes[5]));
   visit(p.own);
   visit_all(p.matrix, visit), visit_all(p.displaced, visit), visit_all(p.beside, visit), visit_all(p.first, visit);
-  for (Rows& functions : p.functions) visit_rows(functions, visit);
   visit_rows(p.unknowns, visit);
   visit(p.modes);
 }
@@ -153,9 +138,7 @@ Piece Pieces::of(int rank) {
   if (meshes > 0) p.dimension = matrix_.coarse->front().dimension;
   p.block = numbering_.block(), p.motions = static_cast<int>(near_kernel_.cols());
   for (int l = 0; l <= meshes; ++l) p.own.push_back(range_of(rank, numbering_, l).count());
-  for (int l = 0; l < meshes; ++l)
-    p.functions.push_back(some_rows((*matrix_.coarse)[l], l == 0 ? numbering_.slot() : numbering_.functions(l), numbering_.functions(l + 1),
-                                    range_of(rank, numbering_, l)));
+  if (!matrix_.slices) p.functions = own_functions(meshes > 0 ? *matrix_.coarse : std::vector<algebra::CoarseFunctions>(), numbering_, rank);
   if (matrix_.unknowns) p.unknowns = some_rows(*matrix_.unknowns, numbering_.slot(), range_of(rank, numbering_, 0), numbering_.idle());
   p.modes = some_modes(near_kernel_, meshes > 0 ? numbering_.functions(meshes) : numbering_.slot(), range_of(rank, numbering_, meshes));
   p.matrix = rows_of(rank, finest_), p.displaced = rows_of(rank, displaced_);
@@ -164,9 +147,15 @@ Piece Pieces::of(int rank) {
 
 void send(const Ranks& ranks, int to, Piece& piece) {
   visit_all(piece, [&](const auto& numbers) { ranks.send(to, numbers); });
+  if (!piece.slices) send(ranks, to, piece.functions);
 }
-Piece receive_piece(const Ranks& ranks, int from) { return receive_whole<Piece>(ranks, from); }
+Piece receive_piece(const Ranks& ranks, int from) {
+  auto piece = receive_whole<Piece>(ranks, from);
+  if (!piece.slices) piece.functions = receive_own_functions(ranks, from);
+  return piece;
+}
 void take_matrix(Piece& piece, const Slice& slice) {
+  piece.functions = slice.functions();
   piece.lent = slice.lend();
   if (!piece.lent) piece.matrix = slice.rows();
 }

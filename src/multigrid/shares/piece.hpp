@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "multigrid/processes/ranks.hpp"
+#include "multigrid/rows/own_functions.hpp"
 #include "multigrid/rows/rows.hpp"
 #include "multigrid/rows/slice.hpp"
 #include "multigrid/shares/numbering.hpp"
@@ -30,7 +31,7 @@ struct Piece {
   std::shared_ptr<LentMatrix> lent = nullptr;  ///< the slice's, in place of `matrix`; it is not sent
   Change beside;                 ///< entries in which the matrix differs from the slice's, whose pattern may lack them
   Change first;                  ///< with which the matrix is positive definite
-  std::vector<Rows> functions;   ///< of each coarser mesh
+  AllOwnFunctions functions;     ///< of each coarser mesh; the slices', where they have the matrix: these are not sent
   HalfRows displaced;            ///< as in Matrix, where there are no coarser meshes; idle rows as in `matrix`
   Rows unknowns;                 ///< as in Matrix; idle rows as in the identity. No rows where it has none
   std::vector<double> modes;     ///< near kernel, by columns: on the finest level, or the coarsest mesh
@@ -64,7 +65,7 @@ class Pieces {
 };
 void send(const Ranks& ranks, int to, Piece& piece);
 Piece receive_piece(const Ranks& ranks, int from);
-/// Takes the matrix of the slice, on loan if no other solver has it.
+/// Takes the slice's functions, and its matrix, on loan if no other solver has it.
 void take_matrix(Piece& piece, const Slice& slice);
 
 void send(const Ranks& ranks, int to, Change& change);
