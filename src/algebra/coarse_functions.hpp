@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <memory>
 #include <numeric>
 #include <span>
@@ -14,13 +13,11 @@
 
 namespace dotyk::algebra {
 
-/// P: what displacements of a coarser mesh are on the mesh that refines it. A component of a node is the mean of that component of a few coarse nodes. Those
-/// that are prescribed have neither row nor column.
+/// P: what displacements of a coarser mesh are on the mesh that refines it. A component of a node is the mean of that component of a few coarse nodes.
+/// Prescribed components have neither row nor column.
 struct CoarseFunctions {
-  static constexpr int kMostMeans = 8;
-
   int dimension = 1;                             ///< components of a node
-  std::shared_ptr<const Buckets> means;          ///< node → coarse nodes, kMostMeans of them at most; null: each node is a coarse one
+  std::shared_ptr<const Buckets> means;          ///< node → coarse nodes; null: each node is a coarse one
   SharedList<int> row;                           ///< node × dimension + component → row of P, or −1; they ascend
   SharedList<int> column;                        ///< the same of coarse nodes and columns
   int rows = 0, columns = 0;                     ///< of P; columns may be empty
@@ -42,7 +39,7 @@ struct CoarseFunctions {
     return coarse.size() == 1 ? coarse[0] : -1;
   }
 
-  /// Calls visit(row, node, component) for the rows of P, on all cores.
+  /// Calls visit(row, node, component) for the rows of P, from several threads.
   template <class Visit>
   void each_row(const Visit& visit) const {
     constexpr int kFew = 50'000;
@@ -77,8 +74,8 @@ struct CoarseFunctions {
     return out;
   }
 
-  /// P as it is.
-  void store(SparseRows& P) const {
+  /// P as a matrix.
+  void to_matrix(SparseRows& P) const {
     P.resize(rows, columns);
     int* starts = P.outerIndexPtr();
     each_row([&](int r, int node, int k) { each_in_row(node, k, [&](int, double) { ++starts[r + 1]; }); });
@@ -93,7 +90,7 @@ struct CoarseFunctions {
   }
 
   /// The same with other numbers of columns, −1 where there is none.
-  CoarseFunctions with_columns(std::vector<int> number, int count) const {
+  CoarseFunctions with_columns(SharedList<int> number, int count) const {
     CoarseFunctions out = *this;
     out.column = std::move(number), out.columns = count;
     return out;

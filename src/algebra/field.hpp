@@ -10,6 +10,7 @@
 namespace dotyk::algebra {
 
 /// Where vectors lie. They are known by numbers from 1. Of some unknowns the numbers are told and set at little cost. Those that are `watched` are often asked for.
+/// Not for several threads at once: what reads a vector may make others.
 class Vectors {
  public:
   Vectors(int unknowns, std::vector<int> watched) : unknowns_(unknowns), watched_(std::move(watched)) {}

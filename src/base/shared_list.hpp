@@ -6,11 +6,13 @@
 
 namespace dotyk {
 
-/// Numbers that do not change once they are made. Copies share them.
+/// Numbers that do not change once they are made. Copies share them, and so do moves.
 template <class Number>
 class SharedList {
  public:
   SharedList(std::vector<Number> numbers = {}) : numbers_(std::make_shared<const std::vector<Number>>(std::move(numbers))) {}  // NOLINT
+  SharedList(const SharedList&) = default;
+  SharedList& operator=(const SharedList&) = default;
   std::size_t size() const { return numbers_->size(); }
   const Number& operator[](std::size_t k) const { return (*numbers_)[k]; }
   auto begin() const { return numbers_->begin(); }

@@ -36,7 +36,7 @@ struct Matrix {
   const algebra::SparseRows* rows = nullptr;
   /// Other numbers of some entries, as for set(), with which `lower` is positive definite; null: none.
   const algebra::Triplets* changed = nullptr;
-  /// The matrix K of displacements as the ranks have it, by make_slices() from the same `node`, `coarse` and `rows`; of `lower` only the size counts then, and
+  /// The matrix K of displacements as the ranks have it, by make_slices() from the same `node`, `rows` and `coarse`, of which these may be the first ones; of `lower` only the size counts then, and
   /// `displaced` is not needed. Null: `lower` is the matrix.
   const algebra::SlicedMatrix* slices = nullptr;
   /// Entries in which the matrix differs from K, as those of rows that have become unknowns. K's pattern may lack them. Null: none.

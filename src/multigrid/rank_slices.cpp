@@ -141,7 +141,7 @@ std::unique_ptr<Slice> RankSlices::share_out(const Shared& matrix) const {
       workers_.tell(Task::slice, r);
       send(ranks, r, some[r - begin].lists, numbers[r - begin]);
       send(ranks, r, functions[r - begin]);
-      some[r - begin] = {};
+      some[r - begin] = {}, functions[r - begin] = nullptr;
     }
   }
   return std::make_unique<Slice>(ranks, assembled(matrix.assemble, std::move(some[0].lists), numbers[0]), numbers[0].idle, functions[0]);

@@ -72,14 +72,14 @@ void RankVectors::tell(Task task, int v) const {
   for (int r = 1; r < workers_.ranks().count(); ++r) workers_.ranks().send(r, std::vector<int>{v});
 }
 
-void RankVectors::tell(Task task, int v, const Of& some) const {
+void RankVectors::tell(Task task, int v, const ByRank& some) const {
   tell(task, v);
   for (int r = 1; r < workers_.ranks().count(); ++r) workers_.ranks().send(r, some.rows[r]);
 }
 
-RankVectors::Of RankVectors::by_rank(const std::vector<int>& unknowns) const {
+RankVectors::ByRank RankVectors::by_rank(const std::vector<int>& unknowns) const {
   const auto ranks = static_cast<std::size_t>(workers_.ranks().count());
-  Of of{std::vector<std::vector<int>>(ranks), std::vector<std::vector<int>>(ranks)};
+  ByRank of{std::vector<std::vector<int>>(ranks), std::vector<std::vector<int>>(ranks)};
   for (std::size_t k = 0; k < unknowns.size(); ++k) {
     const int row = numbering_->slot()[unknowns[k]], rank = numbering_->rank_of(row);
     of.places[rank].push_back(static_cast<int>(k)), of.rows[rank].push_back(row - numbering_->first(0)[rank]);
@@ -125,7 +125,7 @@ void RankVectors::put(int v, const Vector& numbers) {
 Vector RankVectors::some(int v, const std::vector<int>& unknowns) {
   const std::lock_guard lock(only_one());
   const Ranks& ranks = workers_.ranks();
-  const Of of = by_rank(unknowns);
+  const ByRank of = by_rank(unknowns);
   return ranks.together([&] {
     tell(Task::get_some, v, of);
     Vector all(std::ssize(unknowns));
@@ -141,7 +141,7 @@ Vector RankVectors::some(int v, const std::vector<int>& unknowns) {
 void RankVectors::set_some(int v, const std::vector<int>& unknowns, const Vector& numbers) {
   const std::lock_guard lock(only_one());
   const Ranks& ranks = workers_.ranks();
-  const Of of = by_rank(unknowns);
+  const ByRank of = by_rank(unknowns);
   const auto part = [&](int rank) {
     std::vector<double> own;
     for (const int k : of.places[rank]) own.push_back(numbers[k]);

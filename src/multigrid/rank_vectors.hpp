@@ -29,14 +29,14 @@ class RankVectors final : public algebra::Vectors {
 
  private:
   /// Some unknowns, by rank.
-  struct Of {
+  struct ByRank {
     std::vector<std::vector<int>> places;  ///< among them
     std::vector<std::vector<int>> rows;    ///< in the rank's part, counted from its first
   };
-  Of by_rank(const std::vector<int>& unknowns) const;
+  ByRank by_rank(const std::vector<int>& unknowns) const;
   /// Tells the other ranks to put numbers into v, or to send what they have of it.
   void tell(Task task, int v) const;
-  void tell(Task task, int v, const Of& some) const;
+  void tell(Task task, int v, const ByRank& some) const;
 
   Workers workers_;
   std::shared_ptr<const Numbering> numbering_;

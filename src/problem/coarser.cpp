@@ -7,11 +7,9 @@
 #include <stdexcept>
 
 #include "algebra/congruent.hpp"
-#include "base/parallel.hpp"
 
 namespace dotyk::problem {
 
-using algebra::DenseMatrix;
 using algebra::SparseMatrix;
 using algebra::SparseRows;
 using algebra::Vector;
@@ -40,15 +38,15 @@ CoarserBlock coarser(const Block& fine, std::vector<algebra::CoarseFunctions> al
   if (!all.empty()) all[0] = all[0].with_rows(functions.column, functions.columns);
   std::vector<int> nodes;
   for (const algebra::CoarseFunctions& next : all) nodes.push_back(next.coarse_nodes());
-  block.coarse = {std::move(nodes), functions.dimension, [all = std::move(all)](int most) { return std::vector(all.begin(), all.begin() + most); }, fine.coarse.order};
+  block.coarse = {std::move(nodes), functions.dimension, [all = std::move(all)](int most) { return std::vector(all.begin(), all.begin() + most); }};
   return out;
 }
 
 /// The component of its node that an unknown is.
 int component_of(const algebra::CoarseFunctions& functions, int node, int unknown) {
-  int k = 0;
-  while (functions.row[functions.dimension * node + k] != unknown) ++k;
-  return k;
+  for (int k = 0; k < functions.dimension; ++k)
+    if (functions.row[functions.dimension * node + k] == unknown) return k;
+  throw std::logic_error("coarser: functions of other nodes than the problem's");
 }
 
 /// The unknown with the greatest factor, or -1.
@@ -162,7 +160,7 @@ Coarser coarser(const Problem& problem, std::vector<algebra::CoarseFunctions> fu
       }
     if (stiffness.rows() == 0) {
       SparseRows P;
-      coarse.functions.store(P);
+      coarse.functions.to_matrix(P);
       coarse.block.K = algebra::congruent(fine.K, P);
     }
     out.problem.blocks.push_back(std::move(coarse.block));

@@ -44,22 +44,18 @@ Parts parts(const Problem& problem) {
 }
 
 Forces external_forces(const Problem& problem, const State& state) {
-  const auto u = field(problem, state.u);
-  const algebra::Field zero(u->where());
-  Forces all{u, std::nullopt, zero, zero};
-  const std::vector<int> unknowns = problem.unknowns_of_rows();
-  const Vector contact = problem.B.transpose() * state.lambda;
-  all.contact.set_some(unknowns, contact(unknowns));
-  if (problem.loaded()) all.load.put(problem.load());
+  Forces all{field(problem, state.u), std::nullopt, std::nullopt, problem.unknowns_of_rows(), {}};
+  all.contact = Vector::Zero(std::ssize(all.unknowns));
+  for (int r = 0; r < problem.rows(); ++r)
+    for (algebra::SparseRows::InnerIterator it(problem.B, r); it; ++it)
+      all.contact[std::ranges::lower_bound(all.unknowns, static_cast<int>(it.col())) - all.unknowns.begin()] += it.value() * state.lambda[r];
   return all;
 }
 
 Forces forces(const Problem& problem, const State& state) {
   Forces all = external_forces(problem, state);
-  algebra::Field taken(all.u->where());
-  take_stiffness_times(problem, {*all.u, taken}, true, taken);
-  all.internal.emplace(all.u->where());
-  all.internal->add(-1, taken);
+  all.internal = stiffness_times(problem, {*all.u, algebra::Field(all.u->where())}, true);
+  if (problem.loaded()) all.load.emplace(all.u->where()).put(problem.load());
   return all;
 }
 
@@ -67,12 +63,13 @@ bool any_loaded(const std::vector<Sizes>& parts) {
   return std::any_of(parts.begin(), parts.end(), [](const Sizes& part) { return part.load > 0; });
 }
 
+namespace {
+
+/// a · b, on all cores.
 double dot(const Eigen::Ref<const Vector>& a, const Eigen::Ref<const Vector>& b) {
   constexpr int kFew = 100'000;  // numbers, for a thread
   return parallel_sum(a.size(), kFew, [&](int first, int end) { return a.segment(first, end - first).dot(b.segment(first, end - first)); });
 }
-
-namespace {
 
 /// A norm whose squares neither overflow nor vanish.
 bool moderate(double norm) {
@@ -142,33 +139,34 @@ void add_scales_of_others(std::vector<Sizes>& parts) {
 
 }  // namespace
 
-std::vector<Sizes> sizes(const Problem& problem, const Forces& all, const Parts& parts) {
+std::vector<Sizes> sizes(const Problem& problem, const State& state, const Forces& all, const Parts& parts) {
   std::vector<Sizes> result(static_cast<std::size_t>(parts.count));
   const OfParts of(problem, parts);
-  const auto take = [&](double Sizes::*size, const std::vector<double>& by_part) {
-    for (std::size_t p = 0; p < result.size(); ++p) result[p].*size = by_part[p];
+  const std::vector<double> moved = of.greatest(*all.u), internal = all.internal ? of.norm(*all.internal) : std::vector<double>(result.size(), 0);
+  for (std::size_t p = 0; p < result.size(); ++p) result[p].greatest_displacement = moved[p], result[p].internal = internal[p];
+  const auto each_block = [&](const auto& visit) {
+    for (std::size_t b = 0; b < problem.blocks.size(); ++b) visit(problem.blocks[b], result[static_cast<std::size_t>(parts.of_block[b])]);
   };
-  if (all.internal) take(&Sizes::internal, of.norm(*all.internal));
-  take(&Sizes::contact, of.norm(all.contact)), take(&Sizes::load, of.norm(all.load));
-  take(&Sizes::greatest_load, of.greatest(all.load)), take(&Sizes::greatest_displacement, of.greatest(*all.u));
+  each_block([&](const Block& block, Sizes& part) {
+    const auto place = [&](int unknown) { return std::ranges::lower_bound(all.unknowns, unknown) - all.unknowns.begin(); };
+    const Eigen::Index first = place(block.first), end = place(block.first + block.size());
+    add(part.contact, all.contact.segment(first, end - first)), add(part.load, block.f);
+    part.greatest_load = std::max(part.greatest_load, block.f.lpNorm<Eigen::Infinity>());
+  });
   // Where half of the digits of K|u| are below this part of the forces of contact they need not be known.
   constexpr double kBelowForces = 0.01;
   const double half = std::sqrt(std::numeric_limits<double>::epsilon());
-  const bool all_loaded = std::ranges::all_of(result, [](const Sizes& part) { return part.load > 0; }), alone = problem.blocks.size() == 1;
-  const double moved = all_loaded || !alone ? 0 : of.norm(*all.u)[0];
-  const Vector u = all_loaded || alone ? Vector() : all.u->get();
-  for (std::size_t b = 0; b < problem.blocks.size() && !all_loaded; ++b) {
-    const Block& block = problem.blocks[b];
-    Sizes& part = result[static_cast<std::size_t>(parts.of_block[b])];
-    if (part.load > 0) continue;
-    double size = moved;
-    if (!alone) add(size, u.segment(block.first, block.size()));
-    if (half * size_of_gross_forces(block, size) < kBelowForces * part.contact) continue;
-    const Vector own = alone ? all.u->get() : Vector(u.segment(block.first, block.size()));
-    const Vector gross = block.K.gross_times(own);
+  each_block([&](const Block& block, Sizes& part) {
+    if (part.load > 0) return;
+    double size = 0;
+    if (problem.blocks.size() == 1) size = of.norm(*all.u)[0];
+    else add(size, state.u.here().segment(block.first, block.size()));
+    if (half * size_of_gross_forces(block, size) < kBelowForces * part.contact) return;
+    const Vector u = state.u.here().segment(block.first, block.size());
+    const Vector gross = block.K.gross_times(u);
     add(part.least_force, half * gross);
-    part.least_work += half * gross.dot(own.cwiseAbs());
-  }
+    part.least_work += half * gross.dot(u.cwiseAbs());
+  });
   add_scales_of_others(result);
   return result;
 }

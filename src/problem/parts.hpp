@@ -24,14 +24,16 @@ Parts parts(const Problem& problem);
 /// relative to this scale. Where no part is loaded, the greatest itself: all forces may vanish then.
 std::vector<double> least_beside_others(const std::vector<double>& of_part, bool loaded);
 
-/// u of a state and its forces Ku (none where a pass over K is not worth it), Bᵀλ and f, which lie with the slices of K, or here.
+/// u of a state and its forces. Fields lie with the slices of K, or here.
 struct Forces {
   std::shared_ptr<const algebra::Field> u;
-  std::optional<algebra::Field> internal;
-  algebra::Field contact, load;
+  std::optional<algebra::Field> internal;  ///< Ku; none where a pass over K is not worth it
+  std::optional<algebra::Field> load;      ///< f, beside Ku; none where there are no loads
+  std::vector<int> unknowns;               ///< those of rows, ascending
+  algebra::Vector contact;                 ///< Bᵀλ at these
 };
 
-Forces external_forces(const Problem& problem, const State& state);  ///< without Ku
+Forces external_forces(const Problem& problem, const State& state);  ///< without Ku and f
 Forces forces(const Problem& problem, const State& state);
 
 /// Sums over the unknowns of each part.
@@ -64,10 +66,8 @@ struct Sizes {
 
 bool any_loaded(const std::vector<Sizes>& parts);
 /// By part.
-std::vector<Sizes> sizes(const Problem& problem, const Forces& all, const Parts& parts);
+std::vector<Sizes> sizes(const Problem& problem, const State& state, const Forces& all, const Parts& parts);
 
-/// a · b, on all cores.
-double dot(const Eigen::Ref<const algebra::Vector>& a, const Eigen::Ref<const algebra::Vector>& b);
 /// Adds a vector to a norm.
 void add(double& norm, const Eigen::Ref<const algebra::Vector>& v);
 

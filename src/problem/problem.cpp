@@ -187,8 +187,6 @@ namespace {
 template <class Numbers>
 Numbers times(const Problem& problem, const Numbers& u) {
   if (problem.blocks.size() == 1) return problem.blocks[0].K.times(u);
-  if constexpr (std::is_same_v<Numbers, Vector>)
-    if (const auto* all = slices(problem)) return all->times(u);
   Numbers result(problem.unknowns());
   for (const Block& block : problem.blocks)
     result.segment(block.first, block.size()) = block.K.times(Eigen::Map<const Numbers>(u.data() + block.first, block.size()));
@@ -210,26 +208,30 @@ std::shared_ptr<const algebra::Field> field(const Problem& problem, const Displa
   return std::make_shared<const algebra::Field>(std::move(field));
 }
 
-Vector jumps(const Problem& problem, const Displacement& u) {
-  if (!u.there()) return problem.B * u.here() - problem.c;
+Vector rows_times(const Problem& problem, const Displacement& u) {
+  if (!u.there()) return problem.B * u.here();
   const std::vector<int> unknowns = problem.unknowns_of_rows();
   const Vector near = u.there()->some(unknowns);
-  Vector x = -problem.c;
+  Vector x = Vector::Zero(problem.rows());
   for (int r = 0; r < problem.rows(); ++r)
     for (SparseRows::InnerIterator it(problem.B, r); it; ++it)
       x[r] += it.value() * near[std::ranges::lower_bound(unknowns, static_cast<int>(it.col())) - unknowns.begin()];
   return x;
 }
 
+algebra::Field stiffness_times(const Problem& problem, const algebra::LongField& u, bool precisely) {
+  algebra::Field product(u.high.where());
+  take_stiffness_times(problem, u, precisely, product);
+  product.add(-2, product);  // it was taken off nothing, and −x − 2(−x) = x
+  return product;
+}
+
 Vector stiffness_times(const Problem& problem, const Vector& u) {
   const auto place = vectors(problem);
   algebra::LongField moved{algebra::Field(place), algebra::Field(place)};
-  algebra::Field force(place);
   moved.high.put(u);
-  take_stiffness_times(problem, moved, true, force);
-  return -force.get();
+  return stiffness_times(problem, moved, true).get();
 }
-Vector rough_stiffness_times(const Problem& problem, const Vector& u) { return times(problem, u); }
 
 void take_stiffness_times(const Problem& problem, const algebra::LongField& u, bool precisely, algebra::Field& from) {
   if (const auto* all = slices(problem)) return all->take_product(u, precisely, from);

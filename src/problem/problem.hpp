@@ -120,8 +120,10 @@ inline constexpr double kMostForceOnSubdomains = 1e175;
 /// Adds a block, setting its `first`. Throws as require_kernel().
 void add(Problem& problem, Block block);
 
+/// Bu.
+algebra::Vector rows_times(const Problem& problem, const Displacement& u);
 /// Bu − c.
-algebra::Vector jumps(const Problem& problem, const Displacement& u);
+inline algebra::Vector jumps(const Problem& problem, const Displacement& u) { return rows_times(problem, u) - problem.c; }
 
 /// Gives each block its part of a stiffness of all of them that is in slices.
 void take_slices(Problem& problem, const std::shared_ptr<const algebra::SlicedMatrix>& slices);
@@ -129,7 +131,7 @@ void take_slices(Problem& problem, const std::shared_ptr<const algebra::SlicedMa
 const algebra::SlicedMatrix* slices(const Problem& problem);
 /// Vectors that lie with the slices, or here where there are none. `watched`: unknowns, ascending.
 std::shared_ptr<algebra::Vectors> vectors(const Problem& problem, const std::vector<int>& watched = {});
-/// u there.
+/// u as such a vector: its own where it lies so already.
 std::shared_ptr<const algebra::Field> field(const Problem& problem, const Displacement& u);
 
 /// The lower triangle of the stiffness of all blocks.
@@ -139,8 +141,8 @@ std::vector<int> nodes(const Problem& problem);
 /// K u, block by block, in extended precision, rounded at the end. Forces of neighbouring cells are differences of terms that are greater by (size/cell)² in
 /// a solid, and by its square in a beam or a plate.
 algebra::Vector stiffness_times(const Problem& problem, const algebra::Vector& u);
-/// The same in the precision of u, in a fifth of the time: where the product is small beside what it is subtracted from.
-algebra::Vector rough_stiffness_times(const Problem& problem, const algebra::Vector& u);
+/// K u as a vector that lies where u does: precisely as well, or with u.high in double precision.
+algebra::Field stiffness_times(const Problem& problem, const algebra::LongField& u, bool precisely);
 /// from −= K u, precisely (in extended precision) or with u.high in double precision. The vectors lie with the slices, or in this process where there are none.
 void take_stiffness_times(const Problem& problem, const algebra::LongField& u, bool precisely, algebra::Field& from);
 

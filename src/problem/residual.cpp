@@ -7,7 +7,6 @@
 
 #include "algebra/dense/decompositions.hpp"
 #include "algebra/dense/generalised_inverse.hpp"
-#include "base/parallel.hpp"
 #include "base/text.hpp"
 #include "problem/parts.hpp"
 
@@ -48,7 +47,7 @@ double natural_residual(const Problem& problem, const Vector& x, const Vector& l
 namespace {
 
 double energy(const Problem& problem, const Forces& forces, const Vector& x) {
-  double e = 0.5 * forces.u->dot(*forces.internal) - forces.u->dot(forces.load);
+  double e = 0.5 * forces.u->dot(*forces.internal) - (forces.load ? forces.u->dot(*forces.load) : 0);
   for (const Block& block : problem.blocks) e += block.offset;
   for (const RowGroup& group : problem.groups)
     for (int r = group.first; r < group.first + group.count; ++r)
@@ -73,7 +72,8 @@ namespace {
 
 /// Forces of a state, and what the parts are measured by.
 struct Measured {
-  Measured(const Problem& problem, Forces all) : forces(std::move(all)), parts(problem::parts(problem)), sizes(problem::sizes(problem, forces, parts)) {}
+  Measured(const Problem& problem, const State& state, Forces all)
+      : forces(std::move(all)), parts(problem::parts(problem)), sizes(problem::sizes(problem, state, forces, parts)) {}
 
   Forces forces;
   Parts parts;
@@ -128,7 +128,7 @@ double unbalanced(const Block& block, const Vector& force, double gross) {
 
 MotionResidual motion_residual(const Problem& problem, const State& state) {
   constexpr double kRoundings = 4;  // of u itself and of the sums in Ku
-  const Measured m(problem, forces(problem, state));
+  const Measured m(problem, state, forces(problem, state));
   const Vector internal = m.forces.internal->get(), external = problem.B.transpose() * state.lambda - problem.load();
   const Vector gross = algebra::SparseRows(problem.B.cwiseAbs()).transpose() * state.lambda.cwiseAbs() + problem.load().cwiseAbs();
   std::vector<double> beyond(m.sizes.size(), 0);
@@ -163,10 +163,10 @@ std::vector<double> yielding(const Problem& problem, const State& state, const P
   return force;
 }
 
-/// `x`: Bu − c.
-std::vector<Scales> scales(const Problem& problem, const State& state, const Vector& x, const Measured& m) {
+/// `Bu`: of the state.
+std::vector<Scales> scales(const Problem& problem, const State& state, const Vector& Bu, const Measured& m) {
   std::vector<Scales> of_part(m.sizes.size());
-  const std::vector<double> forces = m.parts.greatest(state.lambda), jumps = m.parts.greatest(x + problem.c),
+  const std::vector<double> forces = m.parts.greatest(state.lambda), jumps = m.parts.greatest(Bu),
                             least = yielding(problem, state, m.parts);
   for (std::size_t p = 0; p < of_part.size(); ++p) {
     const Sizes& part = m.sizes[p];
@@ -191,7 +191,8 @@ double complementarity(const Problem& problem, const State& state, const Vector&
       work[parts.of_row[r]] += std::abs(state.lambda[r] * problem.c[r]);
     }
   const OfParts of(problem, parts);
-  const std::vector<double> internal = of.dot(*m.forces.u, *m.forces.internal), external = of.dot(*m.forces.u, m.forces.load);
+  const std::vector<double> internal = of.dot(*m.forces.u, *m.forces.internal),
+                            external = m.forces.load ? of.dot(*m.forces.u, *m.forces.load) : std::vector<double>(work.size(), 0);
   for (std::size_t p = 0; p < work.size(); ++p) work[p] += std::abs(0.5 * internal[p]) + std::abs(external[p]);
   const std::vector<double> beside_others = least_beside_others(work, any_loaded(m.sizes));
   return greatest_ratio(product, [&](std::size_t p) { return m.sizes[p].load > 0 ? work[p] : std::max(work[p], beside_others[p]); });
@@ -214,19 +215,20 @@ void add_laws(const Problem& problem, const State& state, const Vector& x, const
 }  // namespace
 
 std::vector<Scales> scales(const Problem& problem, const State& state) {
-  return scales(problem, state, jumps(problem, state.u), Measured(problem, external_forces(problem, state)));
+  return scales(problem, state, rows_times(problem, state.u), Measured(problem, state, external_forces(problem, state)));
 }
 
 Residual residual(const Problem& problem, const State& state) {
   Residual result;
-  const Measured m(problem, forces(problem, state));
-  const Vector x = jumps(problem, state.u);
+  const Measured m(problem, state, forces(problem, state));
+  const Vector Bu = rows_times(problem, state.u), x = Bu - problem.c;
   result.energy = energy(problem, m.forces, x);
   algebra::Field left = *m.forces.internal;
-  left.add(1, m.forces.contact), left.add(-1, m.forces.load);
+  left.set_some(m.forces.unknowns, left.some(m.forces.unknowns) + m.forces.contact);
+  if (m.forces.load) left.add(-1, *m.forces.load);
   result.equilibrium = greatest_ratio(OfParts(problem, m.parts).norm(left), [&](std::size_t p) { return m.sizes[p].force(); });
   if (problem.rows() == 0) return result;
-  add_laws(problem, state, x, scales(problem, state, x, m), result);
+  add_laws(problem, state, x, scales(problem, state, Bu, m), result);
   result.complementarity = complementarity(problem, state, x, m);
   result.friction = friction_violation(problem, state, m.parts);
   return result;
@@ -239,7 +241,7 @@ double distance_from_laws(const Problem& problem, const State& state) {
 }
 
 double rounding_of_equilibrium(const Problem& problem, const State& state) {
-  const Measured m(problem, forces(problem, state));
+  const Measured m(problem, state, forces(problem, state));
   const auto gross = norms(problem, m.parts, [&](const Block& block) { return block.K.gross_times(state.u.here().segment(block.first, block.size())); });
   return std::numeric_limits<double>::epsilon() *
          greatest_ratio(gross, [&](std::size_t p) { return m.sizes[p].internal + m.sizes[p].contact + m.sizes[p].load; });

@@ -7,7 +7,8 @@
 
 namespace dotyk::problem {
 
-/// A displacement of all unknowns. Where it lies with the stiffness, all its numbers come here when they are asked for first. Copies share what lies there.
+/// A displacement of all unknowns. Where it lies with the stiffness, all its numbers come here when they are first asked for. Copies share what lies there. Not
+/// for several threads at once, as fields are not.
 class Displacement {
  public:
   Displacement() = default;
@@ -18,7 +19,7 @@ class Displacement {
 
   Eigen::Index size() const { return there_ ? there_->where()->unknowns() : here_.size(); }
   const algebra::Vector& here() const {
-    if (there_ && !std::exchange(known_, true)) here_ = there_->get();
+    if (there_ && !known_) here_ = there_->get(), known_ = true;
     return here_;
   }
   operator const algebra::Vector&() const { return here(); }  // NOLINT

@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
+
 using namespace dotyk;
 using algebra::CoarseFunctions;
 using algebra::SparseRows;
@@ -22,7 +24,7 @@ CoarseFunctions of_line() {
 
 SparseRows matrix(const CoarseFunctions& functions) {
   SparseRows P;
-  functions.store(P);
+  functions.to_matrix(P);
   return P;
 }
 

@@ -128,7 +128,7 @@ TEST_CASE("functions of coarser meshes: linear displacements are among them, pre
         const algebra::Vector coarse = functions.at_coarse(u);
         CHECK((functions.times(coarse) - u).lpNorm<Eigen::Infinity>() < 1e-14);
         algebra::SparseRows P;
-        functions.store(P);
+        functions.to_matrix(P);
         CHECK((P * coarse - u).lpNorm<Eigen::Infinity>() < 1e-14);
         CHECK((P.transpose() * u - functions.transposed_times(u)).lpNorm<Eigen::Infinity>() < 1e-13);  // sums of 27 numbers
         u = coarse;

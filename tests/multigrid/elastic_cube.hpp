@@ -107,7 +107,7 @@ inline algebra::CoarseFunctions functions_of_coarser(const ElasticCube& cube, in
 
 inline algebra::SparseRows as_matrix(const algebra::CoarseFunctions& functions) {
   algebra::SparseRows P;
-  functions.store(P);
+  functions.to_matrix(P);
   return P;
 }
 

@@ -114,6 +114,22 @@ for _, n in ipairs{ 12, 24 } do
   before = s.multigrid.cg
 end
 
+-- A body without coarser meshes is so large a part that the coarser problem has none that is worth a level, though the mesh after it is known: it is solved
+-- with aggregates.
+do
+  local function scene()
+    local lower <const>, upper <const> = body("lower", box({0, 0, 0}, {1, 1, 1}, {16, 16, 16})), body("upper", box({0, 0, 1}, {1, 1, 1.8}, {11, 11, 8}))
+    lower:part"bottom":fix()
+    upper:part"top":displace{ x = 0, y = 0, z = -0.01 }
+    local all <const> = dotyk.scene{ lower, upper }
+    all:contact{ upper:part"bottom", lower:part"top" }
+    return all
+  end
+  local nested <const>, cold <const> = S.multigrid{}:solve(scene()), S.multigrid{ nested = false }:solve(scene())
+  check.that(nested.reason:find("begun on 1 coarser mesh", 1, true), nested.reason)
+  check.that(math.abs(nested.energy / cold.energy - 1) < 1e-10, ("energy %.15g, not %.15g"):format(nested.energy, cold.energy))
+end
+
 -- Where contact, stick and slip end is put right on the finer mesh before the first step: with friction, too, steps are few.
 do
   local scenes <const> = include "../../scripts/lib/scale_scenes.lua"

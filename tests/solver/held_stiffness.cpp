@@ -197,8 +197,11 @@ TEST_CASE("slices of several bodies, whose rows couple many displacements, give 
   REQUIRE(slices(sliced));
   const auto rigid = problem::rigid_motions(whole);
   const Vector u = test::Random(7).vector(whole.unknowns());
-  const Vector force = problem::rough_stiffness_times(whole, u);
-  CHECK((problem::rough_stiffness_times(sliced, u) - force).norm() <= 1e-14 * force.norm());
+  const Vector force = problem::stiffness_times(whole, u);
+  for (const bool precisely : {false, true}) {
+    const auto field = problem::field(sliced, u);
+    CHECK((problem::stiffness_times(sliced, {*field, algebra::Field(field->where())}, precisely).get() - force).norm() <= 1e-14 * force.norm());
+  }
   for (std::size_t b = 0; b < 2; ++b) {  // each body's own part
     const problem::Block& part = sliced.blocks[b];
     const Vector own = u.segment(part.first, part.size());

@@ -27,7 +27,7 @@ class Hierarchy {
   int levels() const { return static_cast<int>(matrices_.size()); }
   HalfMatrix& matrix(int level) { return *matrices_[level]; }             ///< from 0, the finest
   Mat interpolation(int level) const { return interpolations_[level]; }   ///< from `level` + 1 to `level`
-  int meshes() const { return static_cast<int>(piece_.functions->size()); }  ///< coarser ones: of so many levels after the finest
+  int meshes() const { return static_cast<int>(piece_.own.size()) - 1; }  ///< coarser ones: of so many levels after the finest
   double bytes() const;  ///< of this rank
 
  private:

@@ -90,7 +90,7 @@ class Sharing {
   int nodes(int level) const {
     return level == 0 ? static_cast<int>(first_.size()) - 1 : coupling_.coarse[level - 1].coarse_nodes();
   }
-  /// Nodes here are those with unknowns; `finest` counts all of them.
+  /// Nodes here are those with unknowns; `finest` also counts nodes without.
   void take_finest(const algebra::CoarseFunctions& finest) {
     for (int i = 0; i < finest.nodes(); ++i)
       if (std::any_of(finest.row.begin() + i * finest.dimension, finest.row.begin() + (i + 1) * finest.dimension, [](int r) { return r >= 0; })) finest_.push_back(i);

@@ -12,7 +12,7 @@ namespace dotyk::multigrid {
 /// Numbers the rows of all levels. Unknowns come in blocks of one size, one block a node; a node of the finest level with fewer unknowns has idle rows
 /// beside them. The rows of a rank follow one another.
 /// METIS (Karypis, Kumar 1998) shares out the nodes of the coarsest mesh that has enough of them, none of which weighs much, else those of the finest. A node of
-/// a finer mesh goes to the rank of the coarse node whose function is greatest there. Even coarser meshes belong to rank 0.
+/// a finer mesh goes to the rank of the first coarse node whose function is not zero there. Even coarser meshes belong to rank 0.
 class Numbering {
  public:
   Numbering(const Coupling& coupling, int ranks);

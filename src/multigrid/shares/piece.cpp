@@ -156,6 +156,7 @@ Piece receive_piece(const Ranks& ranks, int from) {
 }
 void take_matrix(Piece& piece, const Slice& slice) {
   piece.functions = slice.functions();
+  if (piece.functions->size() + 1 < piece.own.size()) throw std::logic_error("multigrid: slices of fewer coarser meshes than the solver is to have");
   piece.lent = slice.lend();
   if (!piece.lent) piece.matrix = slice.rows();
 }

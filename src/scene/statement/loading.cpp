@@ -56,8 +56,12 @@ Body Loading::applied_to(const Body& body) const {
   const double rest = of("");
   for (double& f : scaled.force) f *= rest;
   if (scaled.volume_load) scaled.volume_load->factor *= rest;
-  for (const LoadCase& one : body.cases)
-    for (std::size_t k = 0; k < one.force.size(); ++k) nodal_loads(scaled)[k] += of(one.name) * one.force[k];
+  for (const LoadCase& one : body.cases) {
+    if (one.force.empty()) continue;
+    std::vector<double>& force = nodal_loads(scaled);
+    const double factor = of(one.name);
+    for (std::size_t k = 0; k < force.size(); ++k) force[k] += factor * one.force[k];
+  }
   scaled.cases.clear();
   for (Support& support : scaled.supports)
     for (mesh::Point& value : support.values)

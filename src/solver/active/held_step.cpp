@@ -45,7 +45,7 @@ class HeldStep final : public Step {
       : problem_(problem), stiffness_(stiffness), rho_(rho), least_(std::max(kUnbalanced, stiffness.solver().iterates() ? kOfTolerance * tol : 0)), own_(problem.row_stiffness()),
         basis_(stiffness.basis()), T_(stiffness.near_basis().T.cast<long double>()), f_(stiffness.field()), u_{stiffness.field(), stiffness.field()}, before_(u_),
         near_u_(LongVector::Zero(std::ssize(stiffness.near_rows()))), near_before_(near_u_), elsewhere_(stiffness.field()) {
-    f_.put(problem.load());
+    if (problem.loaded()) f_.put(problem.load());
     of_loads_ = f_.moduli();
     for (const problem::FrictionGroup& group : problem.friction)
       for (int r = group.first; r < group.row(group.points()); ++r)
@@ -240,8 +240,7 @@ class HeldStep final : public Step {
     Vector near = by.near_resistance;
     if (by.told) lost = given, lost.add(-1, by.left);
     else {
-      problem::take_stiffness_times(problem_, {by.u, stiffness_.field()}, false, lost);
-      lost.add(-2, lost);  // Ku: the product was taken off nothing, and −x − 2(−x) = x
+      lost = problem::stiffness_times(problem_, {by.u, stiffness_.field()}, false);
       near = stiffness_.near_basis().forces(lost.watched());
     }
     const Vector moved = stiffness_.jumps() * by.near_u;

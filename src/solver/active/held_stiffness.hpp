@@ -81,13 +81,12 @@ class HeldStiffness {
   const problem::RowBasis& near_basis() const { return near_basis_; } ///< basis(), likewise
   /// Zeros. Such vectors lie with the slices of K, or here where there are none; near_rows() are watched.
   algebra::Field field() const { return algebra::Field(vectors_); }
+  algebra::Field field(const problem::Displacement& u) const;  ///< the same with these numbers
   /// Flags so many layers of neighbours in `of` as well, and returns a lower triangle that has at least the entries of TᵀKT in rows and columns of flagged unknowns.
   algebra::SymmetricMatrix near(std::vector<char>& of, int layers) const;
   /// `spring`: s, force per displacement, rows; `held`: one flag an unknown of the basis, of those of rows and of fixing_noticed() alone; `added`: to the
   /// matrix, lower triangle, of the unknowns of rows of one point. False where the matrix is not positive definite.
   bool factor(const algebra::Vector& spring, const std::vector<char>& held, const std::vector<Eigen::Triplet<double>>& added = {});
-  /// A displacement there.
-  algebra::Field field(const problem::Displacement& u) const;
   /// The displacement that one of the next coarser meshes is on this one. Before anything is held.
   problem::Displacement interpolated(const problem::Coarser& coarse, const problem::Displacement& u) const;
   /// What forces displace.

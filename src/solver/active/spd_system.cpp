@@ -10,7 +10,6 @@ namespace dotyk::solver {
 using algebra::DenseMatrix;
 using algebra::Field;
 using algebra::SparseMatrix;
-using algebra::SparseRows;
 using algebra::StoredMatrix;
 using algebra::Vector;
 using problem::Problem;
