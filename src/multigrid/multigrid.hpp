@@ -29,8 +29,9 @@ struct Matrix {
   /// ones of the mesh after it, and so on. Where the coarsest level is still large, aggregates follow. Null: there is no coarser mesh, and all levels are
   /// aggregates.
   const std::vector<algebra::CoarseFunctions>* coarse = nullptr;
-  /// Receives the matrix of the next coarser mesh: PᵀKP, in slices except where several ranks would have too little work, where K is the matrix of displacements, that of the slices or SᵀAS for A = `lower` and S =
-  /// `unknowns`, without `changed`, and P the first of `coarse` without its empty columns. It stays as it is where `coarse` is null. Null: nobody asks.
+  /// Receives the matrix of the next coarser mesh: PᵀKP, in slices except where several ranks would have too little work. K is the matrix of displacements,
+  /// that of the slices or SᵀAS for A = `lower` and S = `unknowns`, without `changed`; P the first of `coarse` without its empty columns. It stays as it is
+  /// where `coarse` is null. Null: nobody asks.
   algebra::SymmetricMatrix* coarser = nullptr;
   /// Rows of interfaces, of displacements: unknowns that one of them couples stay together where ranks share them out. Null: none.
   const algebra::SparseRows* rows = nullptr;
