@@ -119,6 +119,6 @@ do
   print(("coarsest level    %8.0f unknowns, on one rank; levels with less than a node a rank: %d"):format(all / 8^levels, sparse))
   print(("iterations        %8d in %d steps, if they stay as here: %.0f s"):format(its, s.multigrid.newton, its * (own * iteration + network)))
   print(("contact           %8.0f of %d ranks have nodes of the top; their share of rows decides about the other ranks' waiting"):format(ranks^(2 / 3), ranks))
-  print("What breaks first: rank 0, which has the mesh and the vectors of all, some 290 bytes an unknown more than the others (measured on two ranks at 4.3e6), 400 "
-    .. "with two bodies that do not match (at 1.04e7): 290 and 400 GB. Then latency on the coarse levels, where ranks have less than a node")
+  print("What breaks first: rank 0, which has the mesh and the numbers of all unknowns, some 90 bytes an unknown more than the others (measured on two ranks at 9.9e6), 190 "
+    .. "with two bodies that do not match (at 9.6e6): 90 and 190 GB. Then latency on the coarse levels, where ranks have less than a node")
 end
