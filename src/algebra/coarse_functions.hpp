@@ -39,14 +39,18 @@ struct CoarseFunctions {
     return coarse.size() == 1 ? coarse[0] : -1;
   }
 
-  /// Calls visit(row, node, component) for the rows of P, from several threads.
+  /// Calls visit(row, component) for the rows of a node.
+  template <class Visit>
+  void each_row_of(int node, const Visit& visit) const {
+    for (int k = 0; k < dimension; ++k)
+      if (const int r = row[dimension * node + k]; r >= 0) visit(r, k);
+  }
+  /// Several threads call visit(row, node, component), once for each row of P.
   template <class Visit>
   void each_row(const Visit& visit) const {
     constexpr int kFew = 50'000;
     parallel_ranges(nodes(), threads_for(nodes(), kFew), [&](int, int first, int end) {
-      for (int i = first; i < end; ++i)
-        for (int k = 0; k < dimension; ++k)
-          if (const int r = row[dimension * i + k]; r >= 0) visit(r, i, k);
+      for (int i = first; i < end; ++i) each_row_of(i, [&](int r, int k) { visit(r, i, k); });
     });
   }
 
@@ -60,8 +64,7 @@ struct CoarseFunctions {
   Vector transposed_times(const Eigen::Ref<const Vector>& x) const {
     Vector product = Vector::Zero(columns);
     for (int i = 0; i < nodes(); ++i)
-      for (int k = 0; k < dimension; ++k)
-        if (const int r = row[dimension * i + k]; r >= 0) each_in_row(i, k, [&](int c, double number) { product[c] += number * x[r]; });
+      each_row_of(i, [&](int r, int k) { each_in_row(i, k, [&](int c, double number) { product[c] += number * x[r]; }); });
     return product;
   }
   /// Of values in rows (one each) those of components that coarse nodes have, by columns; 0 in empty columns.
@@ -89,23 +92,14 @@ struct CoarseFunctions {
     });
   }
 
-  /// The same with other numbers of columns, −1 where there is none.
-  CoarseFunctions with_columns(SharedList<int> number, int count) const {
-    CoarseFunctions out = *this;
-    out.column = std::move(number), out.columns = count;
-    return out;
-  }
-  CoarseFunctions with_rows(SharedList<int> number, int count) const {
-    CoarseFunctions out = *this;
-    out.row = std::move(number), out.rows = count;
-    return out;
-  }
   /// Without empty columns: those that are left are numbered anew.
   CoarseFunctions compact() const {
+    CoarseFunctions out = *this;
     std::vector<int> number;
-    int count = 0;
-    for (const int c : column) number.push_back(c < 0 ? -1 : count++);
-    return with_columns(std::move(number), count);
+    out.columns = 0;
+    for (const int c : column) number.push_back(c < 0 ? -1 : out.columns++);
+    out.column = std::move(number);
+    return out;
   }
 };
 

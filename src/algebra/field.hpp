@@ -10,7 +10,7 @@
 namespace dotyk::algebra {
 
 /// Where vectors lie. They are known by numbers from 1. Of some unknowns the numbers are told and set at little cost. Those that are `watched` are often asked for.
-/// Not for several threads at once: what reads a vector may make others.
+/// Not safe for several threads at once: even functions that only read a vector may make others.
 class Vectors {
  public:
   Vectors(int unknowns, std::vector<int> watched) : unknowns_(unknowns), watched_(std::move(watched)) {}
@@ -81,6 +81,9 @@ class Field {
 
 /// A vector in extended precision: the sum of `high`, which is the sum rounded to double, and `low`, what that lacks.
 struct LongField {
+  LongField() = default;
+  explicit LongField(Field numbers) : high(std::move(numbers)), low(high.where()) {}  ///< `low`: zeros
+
   Field high, low;
 
   void add(double factor, const Field& by) { high.where()->run({VectorOrder::Op::add_exactly, high.number(), low.number(), by.number(), 0, factor}); }

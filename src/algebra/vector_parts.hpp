@@ -34,7 +34,7 @@ struct VectorOrder {
 /// Vectors of one length, or what one process has of such vectors.
 class VectorParts {
  public:
-  /// `threads`: on all cores, else on one.
+  /// `threads`: works on all cores; otherwise on one.
   VectorParts(std::ptrdiff_t size, bool threads) : size_(size), few_(threads ? 100'000 : std::numeric_limits<int>::max()) {}
 
   std::vector<double>& operator[](int v) { return vectors_.at(v); }

@@ -35,7 +35,7 @@ CoarserBlock coarser(const Block& fine, std::vector<algebra::CoarseFunctions> al
   block.motions = fine.motions;
   if (fine.rigid) block.rigid = [rigid = fine.rigid, functions] { return functions.at_coarse(rigid()); };
   all.erase(all.begin());
-  if (!all.empty()) all[0] = all[0].with_rows(functions.column, functions.columns);
+  if (!all.empty()) all[0].row = functions.column, all[0].rows = functions.columns;
   std::vector<int> nodes;
   for (const algebra::CoarseFunctions& next : all) nodes.push_back(next.coarse_nodes());
   block.coarse = {std::move(nodes), functions.dimension, [all = std::move(all)](int most) { return std::vector(all.begin(), all.begin() + most); }};
@@ -142,22 +142,14 @@ std::vector<algebra::CoarseFunctions> coarse_functions(const Problem& problem) {
   return all;
 }
 
-Coarser coarser(const Problem& problem, std::vector<algebra::CoarseFunctions> functions, algebra::SymmetricMatrix stiffness) {
+Coarser coarser(const Problem& problem, algebra::SymmetricMatrix stiffness) {
   const int levels = coarser_meshes(problem);
   if (levels == 0) throw std::logic_error("coarser: no coarser meshes are known");
   Coarser out;
   algebra::Triplets entries;
   for (const Block& fine : problem.blocks) {
-    CoarserBlock coarse = coarser(fine, functions.empty() ? fine.coarse.functions(levels) : std::move(functions));
+    CoarserBlock coarse = coarser(fine, fine.coarse.functions(levels));
     coarse.block.first = out.problem.unknowns();
-    for (int r = 0; r < problem.rows(); ++r)
-      for (SparseRows::InnerIterator it(problem.B, r); it; ++it) {
-        const int unknown = static_cast<int>(it.col()) - fine.first;
-        if (unknown < 0 || unknown >= fine.size()) continue;
-        const int node = fine.node[unknown];
-        coarse.functions.each_in_row(node, component_of(coarse.functions, node, unknown),
-                                     [&](int column, double number) { entries.emplace_back(r, coarse.block.first + column, it.value() * number); });
-      }
     if (stiffness.rows() == 0) {
       SparseRows P;
       coarse.functions.to_matrix(P);
@@ -167,6 +159,13 @@ Coarser coarser(const Problem& problem, std::vector<algebra::CoarseFunctions> fu
     out.functions.push_back(std::move(coarse.functions));
   }
   if (stiffness.rows() > 0) take_stiffness(out.problem, std::move(stiffness));
+  for (int r = 0; r < problem.rows(); ++r)
+    for (SparseRows::InnerIterator it(problem.B, r); it; ++it) {
+      const std::size_t b = problem.block_of(it.col());
+      const int unknown = static_cast<int>(it.col()) - problem.blocks[b].first, node = problem.blocks[b].node[unknown];
+      out.functions[b].each_in_row(node, component_of(out.functions[b], node, unknown),
+                                   [&](int column, double number) { entries.emplace_back(r, out.problem.blocks[b].first + column, it.value() * number); });
+    }
   out.problem.B = algebra::from_triplets<SparseRows>(problem.rows(), out.problem.unknowns(), entries);
   out.problem.c = problem.c, out.problem.groups = problem.groups, out.problem.friction = problem.friction;
   out.problem.chains = problem.chains, out.problem.measure = problem.measure, out.problem.row_name = problem.row_name;

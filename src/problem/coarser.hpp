@@ -25,8 +25,8 @@ struct Coarser {
   algebra::Vector finer_displacement(const algebra::Vector& u) const;
   algebra::Vector finer_forces(const algebra::Vector& lambda) const;
 };
-/// `functions`: coarse_functions() of a problem of one block. `stiffness`: PᵀKP of all blocks, P the functions of the next coarser meshes without the empty
-/// ones. What is empty of the two is computed. Throws std::logic_error where there are no coarser meshes.
-Coarser coarser(const Problem& problem, std::vector<algebra::CoarseFunctions> functions = {}, algebra::SymmetricMatrix stiffness = {});
+/// `stiffness`: PᵀKP of all blocks, P the functions of the next coarser meshes without the empty ones; computed where it is empty. Throws std::logic_error
+/// where there are no coarser meshes.
+Coarser coarser(const Problem& problem, algebra::SymmetricMatrix stiffness = {});
 
 }  // namespace dotyk::problem

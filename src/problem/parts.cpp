@@ -44,17 +44,13 @@ Parts parts(const Problem& problem) {
 }
 
 Forces external_forces(const Problem& problem, const State& state) {
-  Forces all{field(problem, state.u), std::nullopt, std::nullopt, problem.unknowns_of_rows(), {}};
-  all.contact = Vector::Zero(std::ssize(all.unknowns));
-  for (int r = 0; r < problem.rows(); ++r)
-    for (algebra::SparseRows::InnerIterator it(problem.B, r); it; ++it)
-      all.contact[std::ranges::lower_bound(all.unknowns, static_cast<int>(it.col())) - all.unknowns.begin()] += it.value() * state.lambda[r];
-  return all;
+  Problem::NearRows near = problem.near_rows();
+  return {field(problem, state.u), std::nullopt, std::nullopt, std::move(near.unknowns), near.B.transpose() * state.lambda};
 }
 
 Forces forces(const Problem& problem, const State& state) {
   Forces all = external_forces(problem, state);
-  all.internal = stiffness_times(problem, {*all.u, algebra::Field(all.u->where())}, true);
+  all.internal = stiffness_times(problem, algebra::LongField(*all.u), true);
   if (problem.loaded()) all.load.emplace(all.u->where()).put(problem.load());
   return all;
 }
@@ -71,7 +67,7 @@ double dot(const Eigen::Ref<const Vector>& a, const Eigen::Ref<const Vector>& b)
   return parallel_sum(a.size(), kFew, [&](int first, int end) { return a.segment(first, end - first).dot(b.segment(first, end - first)); });
 }
 
-/// A norm whose squares neither overflow nor vanish.
+/// Is the square of the norm within the range of numbers?
 bool moderate(double norm) {
   constexpr double kSquares = 1e140;
   return norm < kSquares && norm > 1 / kSquares;

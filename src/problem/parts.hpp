@@ -24,7 +24,7 @@ Parts parts(const Problem& problem);
 /// relative to this scale. Where no part is loaded, the greatest itself: all forces may vanish then.
 std::vector<double> least_beside_others(const std::vector<double>& of_part, bool loaded);
 
-/// u of a state and its forces. Fields lie with the slices of K, or here.
+/// The displacement of a state and its forces. Fields lie with the slices of K; without slices, in this process.
 struct Forces {
   std::shared_ptr<const algebra::Field> u;
   std::optional<algebra::Field> internal;  ///< Ku; none where a pass over K is not worth it

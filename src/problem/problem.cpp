@@ -77,13 +77,21 @@ bool Problem::loaded() const {
   return std::ranges::any_of(blocks, [](const Block& block) { return !block.f.isZero(0); });
 }
 
-std::vector<int> Problem::unknowns_of_rows() const {
-  std::vector<int> all;
-  for (int r = 0; r < B.rows(); ++r)
-    for (SparseRows::InnerIterator it(B, r); it; ++it) all.push_back(static_cast<int>(it.col()));
-  std::ranges::sort(all);
-  all.erase(std::ranges::unique(all).begin(), all.end());
-  return all;
+Problem::NearRows Problem::near_rows() const {
+  NearRows near;
+  const auto each_entry = [&](const auto& visit) {
+    for (int r = 0; r < B.rows(); ++r)
+      for (SparseRows::InnerIterator it(B, r); it; ++it) visit(r, static_cast<int>(it.col()), it.value());
+  };
+  each_entry([&](int, int unknown, double) { near.unknowns.push_back(unknown); });
+  std::ranges::sort(near.unknowns);
+  near.unknowns.erase(std::ranges::unique(near.unknowns).begin(), near.unknowns.end());
+  algebra::Triplets entries;
+  each_entry([&](int r, int unknown, double value) {
+    entries.emplace_back(r, static_cast<int>(std::ranges::lower_bound(near.unknowns, unknown) - near.unknowns.begin()), value);
+  });
+  near.B = algebra::from_triplets<SparseRows>(B.rows(), std::ssize(near.unknowns), entries);
+  return near;
 }
 
 void require_kernel(const algebra::SymmetricMatrix& K, const algebra::DenseMatrix& kernel, const std::string& name,
@@ -210,13 +218,8 @@ std::shared_ptr<const algebra::Field> field(const Problem& problem, const Displa
 
 Vector rows_times(const Problem& problem, const Displacement& u) {
   if (!u.there()) return problem.B * u.here();
-  const std::vector<int> unknowns = problem.unknowns_of_rows();
-  const Vector near = u.there()->some(unknowns);
-  Vector x = Vector::Zero(problem.rows());
-  for (int r = 0; r < problem.rows(); ++r)
-    for (SparseRows::InnerIterator it(problem.B, r); it; ++it)
-      x[r] += it.value() * near[std::ranges::lower_bound(unknowns, static_cast<int>(it.col())) - unknowns.begin()];
-  return x;
+  const Problem::NearRows near = problem.near_rows();
+  return near.B * u.there()->some(near.unknowns);
 }
 
 algebra::Field stiffness_times(const Problem& problem, const algebra::LongField& u, bool precisely) {
@@ -227,10 +230,7 @@ algebra::Field stiffness_times(const Problem& problem, const algebra::LongField&
 }
 
 Vector stiffness_times(const Problem& problem, const Vector& u) {
-  const auto place = vectors(problem);
-  algebra::LongField moved{algebra::Field(place), algebra::Field(place)};
-  moved.high.put(u);
-  return stiffness_times(problem, moved, true).get();
+  return stiffness_times(problem, algebra::LongField(*field(problem, u)), true).get();
 }
 
 void take_stiffness_times(const Problem& problem, const algebra::LongField& u, bool precisely, algebra::Field& from) {

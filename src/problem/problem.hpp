@@ -98,7 +98,12 @@ struct Problem {
   algebra::SparseRows rows_of(const Block& block) const;
   algebra::Vector load() const;            ///< f of all blocks
   bool loaded() const;                     ///< is one of its numbers not 0? Without a load nothing but rounding gives forces a scale
-  std::vector<int> unknowns_of_rows() const;  ///< those of B's entries, ascending
+  /// The unknowns of B's entries, ascending, and B with these columns alone.
+  struct NearRows {
+    std::vector<int> unknowns;
+    algebra::SparseRows B;
+  };
+  NearRows near_rows() const;
   std::string name_of(int row) const;      ///< by row_name, or "row 7"
 };
 

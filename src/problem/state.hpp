@@ -23,7 +23,7 @@ class Displacement {
     return here_;
   }
   operator const algebra::Vector&() const { return here(); }  // NOLINT
-  /// To be changed: it lies here from now on.
+  /// For writing. From then on the numbers lie here alone.
   algebra::Vector& change() {
     here();
     there_ = nullptr;

@@ -47,6 +47,6 @@ TEST_CASE("columns that have no entries are left out, and the others keep their 
   const CoarseFunctions functions = of_line(), compact = functions.compact();
   CHECK(compact.columns == 5);
   CHECK(algebra::DenseMatrix(matrix(compact)) == algebra::DenseMatrix(matrix(functions)).rightCols(5));
-  const CoarseFunctions next = CoarseFunctions{2, nullptr, functions.column, functions.column, 6, 6}.with_rows(compact.column, 5);  // each node is its own
+  const CoarseFunctions next{2, nullptr, compact.column, functions.column, 5, 6};  // each node is its own
   CHECK(algebra::DenseMatrix(matrix(next)) == algebra::DenseMatrix::Identity(6, 6).bottomRows(5));
 }

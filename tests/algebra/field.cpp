@@ -49,7 +49,7 @@ TEST_CASE("a long field has the digits of extended precision") {
   constexpr int kSize = 1000, kSteps = 50;
   test::Random random(9);
   const auto here = algebra::vectors_here(kSize, {});
-  algebra::LongField u{Field(here), Field(here)};
+  algebra::LongField u{Field(here)};
   const algebra::LongField none = u;
   Field by(here);
   using Long = Eigen::Matrix<long double, Eigen::Dynamic, 1>;

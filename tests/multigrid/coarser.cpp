@@ -82,7 +82,7 @@ TEST_CASE("vectors that lie with slices do what vectors here do") {
     Vector told(3);
     told << a.dot(b), a.moduli(), a.greatest();
     a.add(0.5, b);
-    algebra::LongField sum{a, algebra::Field(where)};
+    algebra::LongField sum(a);
     const algebra::LongField before = sum;
     sum.add(1e-9, b), sum.go_back(before, 0.25);
     b.set_watched(a.watched());
@@ -108,7 +108,7 @@ TEST_CASE("what slices tell is what their lower triangle says") {
   const Vector low = Vector::Constant(x.size(), 1e-18);
   const algebra::LongVector product = algebra::symmetric_product(lower, algebra::LongVector(x.cast<long double>() + low.cast<long double>()));
   const auto vectors = A.slices()->vectors({});
-  algebra::LongField u{algebra::Field(vectors), algebra::Field(vectors)};
+  algebra::LongField u{algebra::Field(vectors)};
   algebra::Field left(vectors);
   u.high.put(x), u.low.put(low), left.put(product.cast<double>());
   A.slices()->take_product(u, true, left);  // but for the rounding of the product

@@ -4,7 +4,7 @@ namespace dotyk::multigrid {
 
 namespace {
 
-/// Of the functions that lead from `level` + 1 to `level`.
+/// The rank's rows of the functions that give what a displacement of level + 1 is on `level`.
 OwnFunctions own_functions(const algebra::CoarseFunctions& functions, const Numbering& numbering, int level, int rank) {
   const std::vector<int>&number = level == 0 ? numbering.slot() : numbering.functions(level), &coarse_number = numbering.functions(level + 1);
   const int first = numbering.first(level)[rank], count = numbering.first(level)[rank + 1] - first, d = functions.dimension, block = level == 0 ? numbering.block() : d;

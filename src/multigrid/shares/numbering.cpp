@@ -90,19 +90,15 @@ class Sharing {
   int nodes(int level) const {
     return level == 0 ? static_cast<int>(first_.size()) - 1 : coupling_.coarse[level - 1].coarse_nodes();
   }
-  /// Nodes here are those with unknowns; `finest` also counts nodes without.
+  /// Nodes of level 0 are those with unknowns here; the functions have numbers for all nodes.
   void take_finest(const algebra::CoarseFunctions& finest) {
-    for (int i = 0; i < finest.nodes(); ++i)
-      if (std::any_of(finest.row.begin() + i * finest.dimension, finest.row.begin() + (i + 1) * finest.dimension, [](int r) { return r >= 0; })) finest_.push_back(i);
+    for (int i = 0; i < finest.nodes(); ++i) {
+      bool used = false;
+      finest.each_row_of(i, [&](int, int) { used = true; });
+      if (used) finest_.push_back(i);
+    }
   }
-  /// Calls visit(node, component), both as the functions have them, for the rows of a node of a level: supports may take components away.
-  template <class Visit>
-  void each_row(int level, int node, const Visit& visit) const {
-    const algebra::CoarseFunctions& functions = coupling_.coarse[level];
-    const int i = level == 0 ? finest_[node] : node;
-    for (int k = 0; k < functions.dimension; ++k)
-      if (functions.row[functions.dimension * i + k] >= 0) visit(i, k);
-  }
+  int in_functions(int level, int node) const { return level == 0 ? finest_[node] : node; }
 
   /// Of each node the first one of the next level whose function is not zero there; where there is none, that of the node before.
   std::vector<int> parents_of(int level) const {
@@ -110,10 +106,10 @@ class Sharing {
     std::vector<int> parent(static_cast<std::size_t>(nodes(level)), -1);
     parallel_parts(nodes(level), [&](int begin, int end) {
       for (int node = begin; node < end; ++node)
-        each_row(level, node, [&](int i, int k) {
+        functions.each_row_of(in_functions(level, node), [&](int, int k) {
           if (parent[node] >= 0) return;
           int least = functions.columns;
-          functions.each_in_row(i, k, [&](int column, double) { least = std::min(least, column); });
+          functions.each_in_row(in_functions(level, node), k, [&](int column, double) { least = std::min(least, column); });
           if (least < functions.columns) parent[node] = node_of(functions, least);
         });
     });
@@ -125,14 +121,16 @@ class Sharing {
   template <class Edge>
   void functions_meet(int level, Edge& edge) const {
     const algebra::CoarseFunctions& functions = coupling_.coarse[level - 1];
-    for (int node = 0; node < nodes(level - 1); ++node)
-      each_row(level - 1, node, [&](int i, int k) {
+    for (int node = 0; node < nodes(level - 1); ++node) {
+      const int i = in_functions(level - 1, node);
+      functions.each_row_of(i, [&](int, int k) {
         functions.each_in_row(i, k, [&](int a, double) {
           functions.each_in_row(i, k, [&](int b, double) {
             if (b < a) edge(node_of(functions, a), node_of(functions, b));
           });
         });
       });
+    }
   }
   template <class Edge>
   void nodes_meet(Edge& edge) const {
@@ -170,7 +168,8 @@ class Sharing {
     return node;
   }
 
-  static int node_of(const algebra::CoarseFunctions& functions, int column) { return column / functions.dimension; }  // columns are components of nodes, node by node
+  /// Columns are components of coarse nodes, node by node.
+  static int node_of(const algebra::CoarseFunctions& functions, int column) { return column / functions.dimension; }
 
   const Coupling& coupling_;
   const std::vector<int>& first_;

@@ -31,15 +31,15 @@ CoarseStart coarse_start(const Problem& problem, const Pdas& settings, Monitor& 
   CoarseStart start;
   Stopwatch watch;
   monitor.phase("ordering");
-  Nested nested;
+  algebra::SymmetricMatrix stiffness;
   const auto rigid = [&] {
     const algebra::StopFactoring stop(monitor);
     return problem::rigid_motions(problem);
   }();
-  start.stiffness = std::make_shared<HeldStiffness>(problem, rigid, settings.linear_or_factor(), monitor, &nested);
+  start.stiffness = std::make_shared<HeldStiffness>(problem, rigid, settings.linear_or_factor(), monitor, &stiffness);
   start.ordering = watch.lap();
   monitor.phase("solving on coarser meshes");
-  problem::Coarser coarse = problem::coarser(problem, std::move(nested.functions), std::move(nested.stiffness));
+  problem::Coarser coarse = problem::coarser(problem, std::move(stiffness));
   const CoarseRows rows(coarse.problem, coarse.kept);
   if (rows.count() == 0) return start;
   const Problem part = rows.restricted();

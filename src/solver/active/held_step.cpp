@@ -43,7 +43,7 @@ class HeldStep final : public Step {
  public:
   HeldStep(const Problem& problem, HeldStiffness& stiffness, const Vector& rho, double tol)
       : problem_(problem), stiffness_(stiffness), rho_(rho), least_(std::max(kUnbalanced, stiffness.solver().iterates() ? kOfTolerance * tol : 0)), own_(problem.row_stiffness()),
-        basis_(stiffness.basis()), T_(stiffness.near_basis().T.cast<long double>()), f_(stiffness.field()), u_{stiffness.field(), stiffness.field()}, before_(u_),
+        basis_(stiffness.basis()), T_(stiffness.near_basis().T.cast<long double>()), f_(stiffness.field()), u_(stiffness.field()), before_(u_),
         near_u_(LongVector::Zero(std::ssize(stiffness.near_rows()))), near_before_(near_u_), elsewhere_(stiffness.field()) {
     if (problem.loaded()) f_.put(problem.load());
     of_loads_ = f_.moduli();
@@ -69,7 +69,7 @@ class HeldStep final : public Step {
   }
 
   void begin(const problem::Displacement& u) override {
-    u_ = {stiffness_.noticed(u), stiffness_.field()};
+    u_ = algebra::LongField(stiffness_.noticed(u));
     near_u_ = u_.high.watched().cast<long double>();
     finite_ = std::isfinite(u_.high.moduli());
     forget();
@@ -140,7 +140,7 @@ class HeldStep final : public Step {
   void sort(const Linearisation& l) {
     constant_ = spring_ = target_ = Vector::Zero(problem_.rows());
     held_.assign(problem_.unknowns(), 0);
-    if (!stiffness_.solver().iterates() || !finite_) u_ = {stiffness_.field(), stiffness_.field()}, near_u_.setZero(), finite_ = true, forget();
+    if (!stiffness_.solver().iterates() || !finite_) u_ = algebra::LongField(stiffness_.field()), near_u_.setZero(), finite_ = true, forget();
     Vector moved = Vector::Zero(near_u_.size());
     holding_.clear(), tied_.clear(), sprung_ = false;
     for (int r = 0; r < problem_.rows(); ++r) {
@@ -240,7 +240,7 @@ class HeldStep final : public Step {
     Vector near = by.near_resistance;
     if (by.told) lost = given, lost.add(-1, by.left);
     else {
-      lost = problem::stiffness_times(problem_, {by.u, stiffness_.field()}, false);
+      lost = problem::stiffness_times(problem_, algebra::LongField(by.u), false);
       near = stiffness_.near_basis().forces(lost.watched());
     }
     const Vector moved = stiffness_.jumps() * by.near_u;

@@ -37,7 +37,7 @@ bool has_room(const SparseMatrix& matrix, const algebra::Triplets& entries) {
 
 }  // namespace
 
-HeldStiffness::HeldStiffness(const Problem& problem, const RigidMotions& rigid, const MakeSpdSolver& make, Monitor& monitor, Nested* nested)
+HeldStiffness::HeldStiffness(const Problem& problem, const RigidMotions& rigid, const MakeSpdSolver& make, Monitor& monitor, algebra::SymmetricMatrix* coarser)
     : problem_(problem), basis_(problem::row_basis(problem)), unnoticed_(problem::unnoticed_displacements(problem, rigid)), rows_(basis_.times(problem.B)),
       fixing_(algebra::fixing_unknowns(unnoticed_)) {
   rows_.prune([](auto, auto, double value) { return std::abs(value) > 1e-14; });
@@ -49,7 +49,7 @@ HeldStiffness::HeldStiffness(const Problem& problem, const RigidMotions& rigid, 
   for (const int unknown : fixing_) change(unknown, unknown, lower().coeff(unknown, unknown));  // carries nothing
   if (rigid.noticed.cols() > 0) spring_rows(problem.row_stiffness());
   std::vector<Entry> first = now();
-  solver_ = make.make({lower(), numbers(first), problem, basis_, monitor, nested, slices_, beside, near_});
+  solver_ = make.make({lower(), numbers(first), problem, basis_, monitor, coarser, slices_, beside, near_});
   told_ = std::move(first);
 }
 

@@ -17,12 +17,6 @@ struct Coarser;
 
 namespace dotyk::solver {
 
-/// What a solver by multigrid leaves for nested iteration.
-struct Nested {
-  std::vector<algebra::CoarseFunctions> functions;  ///< for problem::coarser(); empty where there are several blocks, or the solver has made none
-  algebra::SymmetricMatrix stiffness;          ///< for problem::coarser(); empty where the solver has not made it
-};
-
 /// What a linear solver is made from: the first matrix, in the basis where rows are unknowns, and the problem that it belongs to.
 struct SpdSystem {
   const algebra::SparseMatrix& lower;  ///< nothing held, no springs; where there are slices, of entries near rows alone
@@ -30,7 +24,7 @@ struct SpdSystem {
   const problem::Problem& problem;
   const problem::RowBasis& basis;
   Monitor& monitor;  ///< outlives the solver
-  Nested* nested;    ///< null: there is no nested iteration
+  algebra::SymmetricMatrix* coarser;       ///< receives what problem::coarser() takes, if the solver makes it; null: there is no nested iteration
   const algebra::SlicedMatrix* slices;     ///< K; null: there are none
   const algebra::Triplets& beside_slices;  ///< entries of TᵀKT that differ from K's, where there are slices
   const std::vector<int>& near_rows;       ///< as in HeldStiffness
@@ -67,9 +61,9 @@ MakeSpdSolver multigrid(Levels levels, double most_iterations = std::numeric_lim
 class HeldStiffness {
  public:
   static constexpr double kTolerance = 1e-12;
-  /// `nested`: as in SpdSystem.
+  /// `coarser`: as in SpdSystem.
   HeldStiffness(const problem::Problem& problem, const problem::RigidMotions& rigid, const MakeSpdSolver& make, Monitor& monitor,
-                Nested* nested = nullptr);
+                algebra::SymmetricMatrix* coarser = nullptr);
 
   const problem::RowBasis& basis() const { return basis_; }
   /// Unknowns that rows act on, those of rows, those that fixing_noticed() names, and what K couples to the latter two: ascending. T is the identity
@@ -87,7 +81,7 @@ class HeldStiffness {
   /// `spring`: s, force per displacement, rows; `held`: one flag an unknown of the basis, of those of rows and of fixing_noticed() alone; `added`: to the
   /// matrix, lower triangle, of the unknowns of rows of one point. False where the matrix is not positive definite.
   bool factor(const algebra::Vector& spring, const std::vector<char>& held, const std::vector<Eigen::Triplet<double>>& added = {});
-  /// The displacement that one of the next coarser meshes is on this one. Before anything is held.
+  /// Interpolates a displacement of the next coarser mesh to this one. To be called before anything is held.
   problem::Displacement interpolated(const problem::Coarser& coarse, const problem::Displacement& u) const;
   /// What forces displace.
   struct Displaced {

@@ -84,7 +84,7 @@ MakeSpdSolver incomplete_factor() {
 MakeSpdSolver multigrid(Levels levels, double most_iterations) {
   const auto make = [levels, most_iterations](const SpdSystem& s) -> std::unique_ptr<algebra::SpdSolver> {
     const std::vector<int> nodes = problem::nodes(s.problem);
-    auto coarse = levels == Levels::meshes ? problem::coarse_functions(s.problem) : std::vector<algebra::CoarseFunctions>();
+    const auto coarse = levels == Levels::meshes ? problem::coarse_functions(s.problem) : std::vector<algebra::CoarseFunctions>();
     const bool of_signs = s.basis.of_signs(), other_signs = of_signs && !s.basis.trivial();
     StoredMatrix K;
     if (!s.slices && !of_signs) K = problem::lower_stiffness(s.problem);
@@ -99,11 +99,10 @@ MakeSpdSolver multigrid(Levels levels, double most_iterations) {
     matrix.rows = &s.problem.B, matrix.changed = other_signs ? &changed : &s.changed;
     matrix.slices = s.slices, matrix.beside_slices = other_signs ? &beside : &s.beside_slices;
     matrix.most_iterations = most_iterations;
-    if (!coarse.empty()) matrix.coarse = &coarse, matrix.coarser = s.nested ? &s.nested->stiffness : nullptr;
+    if (!coarse.empty()) matrix.coarse = &coarse, matrix.coarser = s.coarser;
     const SparseMatrix unknowns = of_signs ? SparseMatrix() : s.basis.of_displacements(s.problem);
     if (!of_signs) matrix.unknowns = &unknowns, matrix.displaced = s.slices ? nullptr : &K;
     auto solver = multigrid::make_solver(matrix, s.monitor);
-    if (s.nested && s.problem.blocks.size() == 1) s.nested->functions = std::move(coarse);
     if (!other_signs) return solver;
     return std::make_unique<SignedSolver>(s.basis.signs, s.near_rows, std::move(solver));
   };
