@@ -15,7 +15,7 @@ namespace dotyk::algebra {
 class BlockOfSlices final : public SlicedMatrix {
  public:
   BlockOfSlices(std::shared_ptr<const SlicedMatrix> whole, Eigen::Index first, Eigen::Index size) : whole_(std::move(whole)), first_(first) {
-    diagonal_ = whole_->diagonal().segment(first, size), most_entries_ = whole_->most_entries();
+    diagonal_ = whole_->diagonal().segment(first, size), most_entries_ = whole_->most_entries(), hides_ = whole_->hides();
   }
   Vector times(const Eigen::Ref<const Vector>& x) const override { return own(whole_->times(padded(x))); }
   Vector gross_times(const Vector& x) const override { return own(whole_->gross_times(padded(x))); }

@@ -10,6 +10,7 @@
 #include "algebra/entries_of.hpp"
 #include "algebra/field.hpp"
 #include "algebra/symmetric_product.hpp"
+#include "base/error.hpp"
 
 namespace dotyk::algebra {
 
@@ -32,10 +33,12 @@ class SlicedMatrix {
 
   const Vector& diagonal() const { return diagonal_; }
   int most_entries() const { return most_entries_; }  ///< at least as many as any row has
+  bool hides() const { return hides_; }               ///< are there other rows and columns, whose unknowns are told to nobody? Vectors have them, with zeros put in
 
  protected:
   Vector diagonal_;
   int most_entries_ = 0;
+  bool hides_ = false;
 };
 
 /// A symmetric matrix, stored as its lower triangle or distributed over several processes. It does not change, and copies share it.
@@ -46,11 +49,12 @@ class SymmetricMatrix {
   SymmetricMatrix(StoredMatrix lower) : content_(std::make_shared<Content>()) { content_->lower.swap(lower); }  // NOLINT
   SymmetricMatrix(std::shared_ptr<const SlicedMatrix> slices) : content_(std::make_shared<Content>()) { content_->slices = std::move(slices); }  // NOLINT
 
-  /// The lower triangle. A distributed matrix is gathered when this is called first, and is kept.
+  /// The lower triangle. A distributed matrix is gathered when this is called first, and is kept. Throws InputError where it hides unknowns.
   const SparseMatrix& lower() const {
     static const SparseMatrix none;
     if (!content_) return none;
     if (slices()) std::call_once(content_->once, [&] {
+      if (slices()->hides()) throw InputError("the stiffness of bodies that ranks refine is with the ranks: only dotyk.solver.multigrid{} works there");
       std::vector<char> all(static_cast<std::size_t>(rows()), 1);
       StoredMatrix whole = slices()->near(all);
       content_->lower.swap(whole);

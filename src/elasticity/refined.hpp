@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "base/monitor.hpp"
 #include "mesh/mesh.hpp"
 
@@ -9,5 +11,9 @@ namespace dotyk::elasticity {
 /// others lie between. Cells of order 2 are cut as their functions map them: curved sides stay the same curves.
 /// `watch`: asked between the steps whether to stop; Interrupted is thrown then.
 mesh::Mesh refined(const mesh::Mesh& mesh, Monitor* watch = nullptr);
+
+/// The same so many times, but of the boundary only and two layers of cells at it: its `whole` tells of the rest. All cells about a node of the first layer
+/// are there. `parent`: receives of each cell the cell of `mesh` that it is a piece of. The mesh must be whole and in one piece.
+mesh::Mesh refined_near_boundary(const mesh::Mesh& mesh, int times, std::vector<int>& parent, Monitor* watch = nullptr);
 
 }  // namespace dotyk::elasticity

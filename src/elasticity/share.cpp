@@ -7,6 +7,7 @@
 #include "algebra/congruent.hpp"
 #include "base/error.hpp"
 #include "base/memory.hpp"
+#include "elasticity/refined.hpp"
 #include "mesh/submesh.hpp"
 
 namespace dotyk::elasticity {
@@ -68,29 +69,17 @@ Share joined(std::vector<Share> of_bodies) {
 
 namespace {
 
-algebra::StoredMatrix assemble_body(Lists lists) {
+/// One body's cells of a share.
+struct Cells {
   mesh::Mesh mesh;
-  mesh.element = static_cast<mesh::Element>(lists.whole[kElement][0]);
-  mesh.coordinates.swap(lists.real[kCoordinates]), mesh.cells.swap(lists.whole[kCells]);
-  require_memory(2 * matrix_bytes(mesh), "a share of the stiffness");
-  const std::vector<int>& facets = lists.whole[kSpringFacets];
+  MaterialField material;
   std::vector<FacetSpring> springs;
-  for (std::size_t k = 0; k < facets.size(); k += 2) {
-    FacetSpring& spring = springs.emplace_back(FacetSpring{{facets[k], facets[k + 1]}, {}});
-    const std::size_t points = static_cast<std::size_t>(facet_points(mesh));
-    for (std::size_t q = 0; q < points; ++q) {
-      const double* at = lists.real[kSprings].data() + (k / 2 * points + q) * 3;
-      spring.stiffness.push_back({at[0], at[1], at[2]});
-    }
-  }
-  const std::vector<int>& fixed = lists.whole[kFixed];
-  return assemble(mesh, MaterialField(lists), springs, number(mesh, {fixed.begin(), fixed.end()}, {}));
-}
+  std::vector<char> fixed;  ///< node × dimension
+};
 
-}  // namespace
-
-algebra::StoredMatrix assemble_share(Lists lists) {
-  std::vector<algebra::StoredMatrix> blocks;
+/// From the lists of joined(), body by body.
+std::vector<Cells> cells_of(Lists lists) {
+  std::vector<Cells> all;
   auto whole = lists.whole.begin() + 1;
   auto real = lists.real.begin();
   const std::vector<int> sizes = std::move(lists.whole[0]);
@@ -98,7 +87,31 @@ algebra::StoredMatrix assemble_share(Lists lists) {
     Lists body;
     std::move(whole, whole + sizes[k], std::back_inserter(body.whole)), whole += sizes[k];
     std::move(real, real + sizes[k + 1], std::back_inserter(body.real)), real += sizes[k + 1];
-    blocks.push_back(assemble_body(std::move(body)));
+    Cells& cells = all.emplace_back();
+    cells.material = MaterialField(body);
+    cells.mesh.element = static_cast<mesh::Element>(body.whole[kElement][0]);
+    cells.mesh.coordinates.swap(body.real[kCoordinates]), cells.mesh.cells.swap(body.whole[kCells]);
+    cells.fixed.assign(body.whole[kFixed].begin(), body.whole[kFixed].end());
+    const std::vector<int>& facets = body.whole[kSpringFacets];
+    for (std::size_t f = 0; f < facets.size(); f += 2) {
+      FacetSpring& spring = cells.springs.emplace_back(FacetSpring{{facets[f], facets[f + 1]}, {}});
+      const auto points = static_cast<std::size_t>(facet_points(cells.mesh));
+      for (std::size_t q = 0; q < points; ++q) {
+        const double* at = body.real[kSprings].data() + (f / 2 * points + q) * 3;
+        spring.stiffness.push_back({at[0], at[1], at[2]});
+      }
+    }
+  }
+  return all;
+}
+
+/// The meshes are gone then.
+algebra::StoredMatrix assembled(std::vector<Cells> bodies) {
+  std::vector<algebra::StoredMatrix> blocks;
+  for (Cells& body : bodies) {
+    require_memory(2 * matrix_bytes(body.mesh), "a share of the stiffness");
+    blocks.push_back(assemble(body.mesh, body.material, body.springs, number(body.mesh, body.fixed, {})));
+    body = {};
   }
   if (blocks.size() == 1) return std::move(blocks[0]);
   std::vector<const algebra::SparseMatrix*> all;
@@ -110,5 +123,71 @@ algebra::StoredMatrix assemble_share(Lists lists) {
   joined = algebra::block_diagonal(all);
   return joined;
 }
+
+class RefinableShare final : public algebra::Refinable {
+ public:
+  explicit RefinableShare(std::vector<Cells> bodies) : bodies_(std::move(bodies)) {}
+
+  int dimension() const override { return bodies_.front().mesh.dimension(); }
+
+  Buckets refine() override {
+    std::vector<int> coarse(bodies_.size());
+    int nodes = 0;
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+      Cells& body = bodies_[b];
+      mesh::Mesh finer = refined(body.mesh);
+      if (body.material.varies()) {
+        std::vector<int> parent(static_cast<std::size_t>(finer.cell_count()));
+        for (std::size_t c = 0; c < parent.size(); ++c) parent[c] = static_cast<int>(c) / (finer.cell_count() / body.mesh.cell_count());
+        body.material = body.material.of(parent);
+      }
+      coarse[b] = body.mesh.node_count(), nodes += finer.node_count();
+      body.mesh = std::move(finer);
+    }
+    Buckets means(nodes, [&](auto&& put) {
+      int node = 0, first = 0;
+      for (std::size_t b = 0; b < bodies_.size(); first += coarse[b], ++b)
+        for (int i = 0; i < bodies_[b].mesh.node_count(); ++i, ++node)
+          for (const int p : bodies_[b].mesh.coarser->means[i]) put(node, first + p);
+    });
+    for (Cells& body : bodies_) body.mesh.coarser = nullptr;
+    return means;
+  }
+
+  std::vector<int> keep(const std::vector<char>& flagged) override {
+    std::vector<int> before;
+    int first = 0;
+    for (Cells& body : bodies_) {
+      const int per_cell = mesh::nodes_of(body.mesh.element), nodes = body.mesh.node_count();
+      std::vector<int> cells;
+      for (int c = 0; c < body.mesh.cell_count(); ++c)
+        if (std::any_of(body.mesh.cell(c), body.mesh.cell(c) + per_cell, [&](int node) { return flagged[static_cast<std::size_t>(first) + node] != 0; })) cells.push_back(c);
+      mesh::Submesh left = mesh::submesh(body.mesh, std::move(cells));
+      body.mesh = std::move(left.mesh), body.material = body.material.of(left.cell);
+      for (const int node : left.node) before.push_back(first + node);
+      first += nodes;
+    }
+    return before;
+  }
+
+  algebra::StoredMatrix assemble(const std::vector<char>& fixed) override {
+    std::size_t first = 0;
+    for (Cells& body : bodies_) {
+      const std::size_t size = body.mesh.coordinates.size();
+      body.fixed.assign(fixed.begin() + static_cast<std::ptrdiff_t>(first), fixed.begin() + static_cast<std::ptrdiff_t>(first + size));
+      first += size;
+    }
+    return assembled(std::move(bodies_));
+  }
+
+ private:
+  std::vector<Cells> bodies_;  // without springs
+};
+
+}  // namespace
+
+algebra::StoredMatrix assemble_share(Lists lists) { return assembled(cells_of(std::move(lists))); }
+
+std::unique_ptr<algebra::Refinable> refinable_share(Lists lists) { return std::make_unique<RefinableShare>(cells_of(std::move(lists))); }
 
 }  // namespace dotyk::elasticity

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
+#include "algebra/refinable.hpp"
 #include "algebra/types.hpp"
 #include "base/lists.hpp"
 #include "elasticity/assembly.hpp"
@@ -19,5 +21,7 @@ Share joined(std::vector<Share> of_bodies);
 /// The lower triangle of the stiffness of these cells, from the lists of joined(). In rows and columns of flagged unknowns its entries are those of the bodies'
 /// stiffness.
 algebra::StoredMatrix assemble_share(Lists lists);
+/// The same cells, to be refined first. Of the lists, supports are not used, and there must be no springs.
+std::unique_ptr<algebra::Refinable> refinable_share(Lists lists);
 
 }  // namespace dotyk::elasticity

@@ -15,6 +15,7 @@ std::vector<int> facet_neighbours(const Mesh& mesh) {
 }
 
 std::vector<Facet> boundary(const Mesh& mesh) {
+  if (mesh.whole) return mesh.whole->boundary;
   const std::vector<int> neighbour = facet_neighbours(mesh);
   const int facets = mesh.topology().facets;
   std::vector<Facet> result;

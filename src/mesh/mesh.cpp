@@ -71,6 +71,7 @@ Point Mesh::facet_area_vector(Facet f) const {
 }
 
 std::vector<int> coarser_nodes(const Mesh& mesh) {
+  if (mesh.whole) return {mesh.whole->nodes.begin() + 1, mesh.whole->nodes.end()};
   std::vector<int> nodes;
   for (const Coarser* c = mesh.coarser.get(); c; c = c->next.get()) nodes.push_back(c->node_count);
   return nodes;

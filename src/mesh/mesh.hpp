@@ -29,6 +29,13 @@ struct Coarser {
   std::shared_ptr<const Coarser> next;  ///< that mesh's own
 };
 
+/// What a mesh of the cells near the boundary knows of the whole mesh.
+struct Whole {
+  std::vector<Facet> boundary;      ///< the whole mesh's, by cell; all belong to cells that are here
+  std::vector<int> nodes;           ///< how many the whole mesh has, then each coarser one
+  double cells = 0;
+};
+
 /// A conforming mesh of one cell type, with named boundary parts.
 struct Mesh {
   Element element = Element::triangle_p1;
@@ -36,6 +43,7 @@ struct Mesh {
   std::vector<int> cells;           ///< nodes per cell × cell_count, cell by cell
   std::map<std::string, std::vector<Facet>> parts;
   std::shared_ptr<const Coarser> coarser = nullptr;  ///< where it is known
+  std::shared_ptr<const Whole> whole = nullptr;      ///< null: this mesh is whole
   /// Sizes of `coordinates` and `cells` as a grid, or what keeps its cells together (order 2, cutting), made them. While they are these, the mesh is in one piece
   /// (see pieces_of), with no cell twice and no node without a cell; nodes may have moved. Code that exchanges cells must clear it.
   std::array<std::size_t, 2> generated{};
@@ -68,7 +76,7 @@ struct Mesh {
 /// d/dt of facet_area_vector() of a facet of order 1 where nodes move with the velocity V (node × dimension).
 Point facet_area_derivative(const Mesh& mesh, const std::vector<double>& V, Facet f);
 
-/// The number of nodes of each known coarser mesh, the finest of them first.
+/// The number of nodes of each known coarser mesh, the finest of them first; those of whole meshes.
 std::vector<int> coarser_nodes(const Mesh& mesh);
 
 /// Node → the cells that have it, ascending.
@@ -78,7 +86,7 @@ Buckets cells_of_nodes(const Mesh& mesh);
 /// share a facet, each has one of the others.
 std::vector<int> facet_neighbours(const Mesh& mesh);
 
-/// All boundary facets (those that belong to one cell only), by cell.
+/// All boundary facets (those that belong to one cell only), by cell; of a part of a mesh, those of the whole.
 std::vector<Facet> boundary(const Mesh& mesh);
 
 /// The boundary facets that `chosen(centre, unit outward normal)` accepts.

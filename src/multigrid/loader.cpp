@@ -70,7 +70,11 @@ std::shared_ptr<const algebra::SlicedMatrix> make_slices(const Shared& matrix) {
   return std::shared_ptr<const algebra::SlicedMatrix>(door<algebra::SlicedMatrix*(const Shared&)>("dotyk_multigrid_slices")(matrix));
 }
 
-void work_for_rank_0(bool spawned, Assemble assemble) { door<void(bool, Assemble)>("dotyk_multigrid_work")(spawned, assemble); }
+std::shared_ptr<const algebra::SlicedMatrix> make_refined_slices(const Refined& matrix) {
+  return std::shared_ptr<const algebra::SlicedMatrix>(door<algebra::SlicedMatrix*(const Refined&)>("dotyk_multigrid_refined_slices")(matrix));
+}
+
+void work_for_rank_0(bool spawned, const ShareMakers& makers) { door<void(bool, const ShareMakers&)>("dotyk_multigrid_work")(spawned, makers); }
 
 namespace {
 

@@ -46,9 +46,9 @@ class PetscSolver final : public algebra::SpdSolver {
     workers_.made();
     alone_.unlock();
     if (!coarser) return;
-    const auto unknowns = static_cast<double>(coarser->diagonal().size());
     *matrix.coarser = std::shared_ptr<const algebra::SlicedMatrix>(coarser);
-    if (!ranks.alone() && !several_ranks_have_work(unknowns)) *matrix.coarser = matrix.coarser->lower();
+    const auto unknowns = static_cast<double>(coarser->diagonal().size());
+    if (!ranks.alone() && !numbering_->hides() && !several_ranks_have_work(unknowns)) *matrix.coarser = matrix.coarser->lower();
     else coarser_numbering_ = coarser->numbering();
   }
   ~PetscSolver() override {
@@ -181,11 +181,16 @@ DOTYK_DOOR void dotyk_multigrid_meet() { dotyk::multigrid::meet_workers(); }
 DOTYK_DOOR void dotyk_multigrid_end_ranks() { dotyk::multigrid::end_workers(); }
 DOTYK_DOOR void dotyk_multigrid_spawn(int ranks, const char* program) { dotyk::multigrid::spawn_workers(ranks, program); }
 DOTYK_DOOR int dotyk_multigrid_ranks() { return dotyk::multigrid::ranks_now(); }
-DOTYK_DOOR void dotyk_multigrid_work(bool spawned, dotyk::multigrid::Assemble assemble) { dotyk::multigrid::work(spawned, assemble); }
+DOTYK_DOOR void dotyk_multigrid_work(bool spawned, const dotyk::multigrid::ShareMakers& makers) { dotyk::multigrid::work(spawned, makers); }
 DOTYK_DOOR void dotyk_multigrid_start() { dotyk::multigrid::start_petsc(); }
 DOTYK_DOOR bool dotyk_multigrid_share(double unknowns) { return dotyk::multigrid::several_ranks_have_work(unknowns); }
 DOTYK_DOOR dotyk::algebra::SlicedMatrix* dotyk_multigrid_slices(const dotyk::multigrid::Shared& matrix) {
   using namespace dotyk::multigrid;
   const std::lock_guard lock(only_one());
   return new RankSlices(workers_for(static_cast<double>(matrix.coupling.node.size())), matrix);
+}
+DOTYK_DOOR dotyk::algebra::SlicedMatrix* dotyk_multigrid_refined_slices(const dotyk::multigrid::Refined& matrix) {
+  using namespace dotyk::multigrid;
+  const std::lock_guard lock(only_one());
+  return new RankSlices(workers_for(static_cast<double>(matrix.base.coupling.node.size()) * (1 << (3 * matrix.times))), matrix);
 }

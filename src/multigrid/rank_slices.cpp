@@ -15,6 +15,7 @@
 #include "multigrid/processes/petsc_session.hpp"
 #include "multigrid/rows/own_rows.hpp"
 #include "multigrid/shares/functions.hpp"
+#include "multigrid/shares/refined_share.hpp"
 
 namespace dotyk::multigrid {
 
@@ -37,15 +38,30 @@ struct OwnNumbers {
   std::vector<int> idle = {};           ///< own rows without unknown
 };
 
-void send(const Ranks& ranks, int to, const Lists& lists, const OwnNumbers& own) {
-  ranks.send(to, std::vector<int>{own.block, own.first, own.nodes, static_cast<int>(lists.whole.size()), static_cast<int>(lists.real.size())});
-  ranks.send(to, own.slot), ranks.send(to, own.idle);
+void send(const Ranks& ranks, int to, const Lists& lists) {
+  ranks.send(to, std::vector<int>{static_cast<int>(lists.whole.size()), static_cast<int>(lists.real.size())});
   for (const auto& list : lists.whole) ranks.send(to, list);
   for (const auto& list : lists.real) ranks.send(to, list);
 }
 
-HalfRows assembled(Assemble assemble, Lists lists, const OwnNumbers& own) {
-  return own_rows(assemble(std::move(lists)), own.slot, own.block, own.first, own.nodes);
+Lists receive_lists(const Ranks& ranks, int from) {
+  std::vector<int> sizes;
+  ranks.receive(from, sizes);
+  Lists lists;
+  lists.whole.resize(static_cast<std::size_t>(sizes[0])), lists.real.resize(static_cast<std::size_t>(sizes[1]));
+  for (auto& list : lists.whole) ranks.receive(from, list);
+  for (auto& list : lists.real) ranks.receive(from, list);
+  return lists;
+}
+
+void send(const Ranks& ranks, int to, const Lists& lists, const OwnNumbers& own) {
+  ranks.send(to, std::vector<int>{own.block, own.first, own.nodes});
+  ranks.send(to, own.slot), ranks.send(to, own.idle);
+  send(ranks, to, lists);
+}
+
+HalfRows assembled(const ShareMakers& makers, Lists lists, const OwnNumbers& own) {
+  return own_rows(makers.assemble(std::move(lists)), own.slot, own.block, own.first, own.nodes);
 }
 
 /// Rank 0 learns the diagonal in take_diagonal().
@@ -64,17 +80,50 @@ std::unique_ptr<Slice> receive_rest(const Ranks& ranks, HalfRows rows, AllOwnFun
   return told_slice(ranks, std::move(rows), idle, std::move(functions));
 }
 
-std::unique_ptr<Slice> receive_slice(const Ranks& ranks, Assemble assemble) {
+std::unique_ptr<Slice> receive_slice(const Ranks& ranks, const ShareMakers& makers) {
   std::vector<int> sizes;
   ranks.receive(0, sizes);
   OwnNumbers own{sizes[0], sizes[1], sizes[2]};
   ranks.receive(0, own.slot), ranks.receive(0, own.idle);
-  Lists lists;
-  lists.whole.resize(static_cast<std::size_t>(sizes[3])), lists.real.resize(static_cast<std::size_t>(sizes[4]));
-  for (auto& list : lists.whole) ranks.receive(0, list);
-  for (auto& list : lists.real) ranks.receive(0, list);
+  Lists lists = receive_lists(ranks, 0);
   AllOwnFunctions functions = receive_own_functions(ranks, 0);
-  return told_slice(ranks, assembled(assemble, std::move(lists), own), own.idle, std::move(functions));
+  return told_slice(ranks, assembled(makers, std::move(lists), own), own.idle, std::move(functions));
+}
+
+namespace {
+
+/// What a rank makes its slice of, once it has refined its share. `prescribed`: rows of each level; `others`: the functions of meshes coarser than its share was.
+struct RefinedRows {
+  HalfRows rows;
+  std::vector<int> idle;
+  AllOwnFunctions functions;
+};
+RefinedRows refined_rows(const Ranks& ranks, RefinedShare& share, const std::vector<std::vector<int>>& prescribed, const AllOwnFunctions& others, int dimension) {
+  auto functions = std::make_shared<std::vector<OwnFunctions>>();
+  std::vector<PrescribedBits> bits;
+  for (const auto& rows : prescribed) bits.push_back(prescribed_bits(rows, dimension));
+  for (std::size_t l = 0; l + 1 < bits.size(); ++l) functions->push_back(share.functions(static_cast<int>(l), bits[l], bits[l + 1]));
+  functions->insert(functions->end(), others->begin(), others->end());
+  RefinedRows out{share.assemble(bits[0]), {}, functions};
+  const std::vector<int>& first = share.first().front();
+  for (const int row : prescribed[0])
+    if (row / dimension >= first[ranks.own()] && row / dimension < first[ranks.own() + 1]) out.idle.push_back(row);
+  return out;
+}
+
+}  // namespace
+
+std::unique_ptr<Slice> receive_refined_slice(const Ranks& ranks, const ShareMakers& makers) {
+  std::vector<int> sizes, number, first;
+  ranks.receive(0, sizes), ranks.receive(0, number), ranks.receive(0, first);
+  const int times = sizes[0], dimension = sizes[1];
+  RefinedShare share(ranks, makers.refinable(receive_lists(ranks, 0)), std::move(number), std::move(first));
+  for (int k = 0; k < times; ++k) share.refine({});
+  std::vector<std::vector<int>> prescribed(static_cast<std::size_t>(times) + 1);
+  for (auto& rows : prescribed) ranks.receive(0, rows);
+  const AllOwnFunctions others = receive_own_functions(ranks, 0);
+  RefinedRows own = refined_rows(ranks, share, prescribed, others, dimension);
+  return told_slice(ranks, std::move(own.rows), own.idle, std::move(own.functions));
 }
 
 void tell_some(const Ranks& ranks, const Slice& slice) {
@@ -87,6 +136,15 @@ RankSlices::RankSlices(Workers workers, const Shared& shared)
     : RankSlices(workers, Numbering(shared.coupling, workers.ranks().count())) {
   workers_.ranks().together([&] {
     slice_ = share_out(shared);
+    take_diagonal();
+  });
+  workers_.made();
+  made_ = true;
+}
+
+RankSlices::RankSlices(Workers workers, const Refined& matrix) : workers_(workers) {
+  workers_.ranks().together([&] {
+    slice_ = share_out(matrix);
     take_diagonal();
   });
   workers_.made();
@@ -144,10 +202,71 @@ std::unique_ptr<Slice> RankSlices::share_out(const Shared& matrix) const {
       some[r - begin] = {}, functions[r - begin] = nullptr;
     }
   }
-  return std::make_unique<Slice>(ranks, assembled(matrix.assemble, std::move(some[0].lists), numbers[0]), numbers[0].idle, functions[0]);
+  return std::make_unique<Slice>(ranks, assembled(matrix.makers, std::move(some[0].lists), numbers[0]), numbers[0].idle, functions[0]);
+}
+
+namespace {
+
+/// Rows, by the numbering, of the components that a level does not have as unknowns.
+std::vector<int> prescribed_rows(const SharedList<int>& unknown, const std::vector<int>& number, int dimension) {
+  std::vector<int> rows;
+  for (std::size_t at = 0; at < unknown.size(); ++at)
+    if (unknown[at] < 0) rows.push_back(number[at / dimension] * dimension + static_cast<int>(at) % dimension);
+  return rows;
+}
+
+/// The nodes of a level by the numbers of those whose mean they are.
+Rows means_by_number(const algebra::CoarseFunctions& functions, const std::vector<int>& number) {
+  Rows means;
+  std::vector<int> row;
+  for (int i = 0; i < functions.nodes(); ++i) {
+    for (const int p : functions.of(i)) row.push_back(number[p]);
+    means.append_columns(row);
+  }
+  return means;
+}
+
+}  // namespace
+
+std::unique_ptr<Slice> RankSlices::share_out(const Refined& matrix) {
+  const Ranks& ranks = workers_.ranks();
+  const Numbering base(matrix.base.coupling, ranks.count());
+  const int d = matrix.coarse.front().dimension;
+  std::vector<int> first = base.first(0);
+  for (int& row : first) row /= d;
+  workers_.tell(Task::refined_slice);
+  Share own;
+  std::vector<int> own_number;
+  for (int r = ranks.count() - 1; r >= 0; --r) {
+    std::vector<char> of_rank(base.slot().size());
+    for (std::size_t i = 0; i < of_rank.size(); ++i) of_rank[i] = base.slot()[i] >= base.first(0)[r] && base.slot()[i] < base.first(0)[r + 1];
+    own = matrix.base.share(of_rank), own_number.clear();
+    for (std::size_t k = 0; k < own.unknowns.size(); k += d) own_number.push_back(base.slot()[own.unknowns[k]] / d);
+    if (r == 0) break;
+    ranks.send(r, std::vector<int>{matrix.times, d}), ranks.send(r, own_number), ranks.send(r, first);
+    send(ranks, r, own.lists);
+  }
+  RefinedShare share(ranks, matrix.base.makers.refinable(std::move(own.lists)), std::move(own_number), std::move(first));
+  std::vector<std::vector<int>> number(1), prescribed;  // by level
+  for (std::size_t i = 0; i < base.slot().size(); i += d) number[0].push_back(base.slot()[i] / d);
+  for (int level = matrix.times - 1; level >= 0; --level) number.insert(number.begin(), share.refine(means_by_number(matrix.coarse[level], number.front())));
+  for (int level = 0; level <= matrix.times; ++level)
+    prescribed.push_back(prescribed_rows(level == 0 ? matrix.coarse[0].row : matrix.coarse[level - 1].column, number[level], d));
+  numbering_ = std::make_shared<const Numbering>(share.first(), number, matrix.coarse.front(), base);
+  const std::vector of_base(matrix.coarse.begin() + matrix.times, matrix.coarse.end());
+  AllOwnFunctions others;
+  for (int r = ranks.count() - 1; r >= 0; --r) {
+    others = own_functions(of_base, base, r);
+    if (r == 0) break;
+    for (const auto& rows : prescribed) ranks.send(r, rows);
+    send(ranks, r, others);
+  }
+  RefinedRows rows = refined_rows(ranks, share, prescribed, others, d);
+  return std::make_unique<Slice>(ranks, std::move(rows.rows), rows.idle, std::move(rows.functions));
 }
 
 void RankSlices::take_diagonal() {
+  hides_ = numbering_->hides();
   const Ranks& ranks = workers_.ranks();
   std::vector<double> part = slice_->diagonal();
   std::vector<double> counts{static_cast<double>(slice_->most_entries()), slice_->entries()};

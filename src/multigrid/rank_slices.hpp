@@ -15,6 +15,7 @@ namespace dotyk::multigrid {
 class RankSlices final : public algebra::SlicedMatrix {
  public:
   RankSlices(Workers workers, const Shared& matrix);
+  RankSlices(Workers workers, const Refined& matrix);
   /// Takes rows and functions that the ranks have already; `own` and `functions`: rank 0's. The others call receive_rest().
   RankSlices(Workers workers, Numbering numbering, HalfRows own, AllOwnFunctions functions);
   ~RankSlices() override;
@@ -33,6 +34,7 @@ class RankSlices final : public algebra::SlicedMatrix {
  private:
   RankSlices(Workers workers, Numbering numbering);
   std::unique_ptr<Slice> share_out(const Shared& matrix) const;
+  std::unique_ptr<Slice> share_out(const Refined& matrix);
   std::vector<int> idle_of(int rank) const;
   void take_diagonal();
   /// Some rows of all ranks.
@@ -52,7 +54,8 @@ class RankSlices final : public algebra::SlicedMatrix {
 };
 
 /// What ranks other than 0 do when rank 0 makes slices, or asks for entries.
-std::unique_ptr<Slice> receive_slice(const Ranks& ranks, Assemble assemble);
+std::unique_ptr<Slice> receive_slice(const Ranks& ranks, const ShareMakers& makers);
+std::unique_ptr<Slice> receive_refined_slice(const Ranks& ranks, const ShareMakers& makers);
 std::unique_ptr<Slice> receive_rest(const Ranks& ranks, HalfRows rows, AllOwnFunctions functions);
 void tell_some(const Ranks& ranks, const Slice& slice);
 

@@ -6,13 +6,17 @@
 #include <vector>
 
 #include "algebra/coarse_functions.hpp"
+#include "algebra/refinable.hpp"
 #include "algebra/symmetric_matrix.hpp"
 #include "base/lists.hpp"
 
 namespace dotyk::multigrid {
 
-/// Assembles the lower triangle of a share's matrix.
-using Assemble = algebra::StoredMatrix (*)(Lists lists);
+/// What a process makes of a share.
+struct ShareMakers {
+  algebra::StoredMatrix (*assemble)(Lists lists);                        ///< the lower triangle of its matrix
+  std::unique_ptr<algebra::Refinable> (*refinable)(Lists lists);         ///< cells that are to be refined first
+};
 
 /// Calls visit(i, j) for pairs, some of them several times. It is called twice and gives the same pairs.
 using EachPair = std::function<void(const std::function<void(int, int)>& visit)>;
@@ -23,6 +27,7 @@ struct Coupling {
   const std::vector<algebra::CoarseFunctions>& coarse;  ///< as in Matrix; none: there is no coarser mesh
   const algebra::SparseRows& rows;                 ///< as in Matrix; none: nothing is coupled by rows
   EachPair each_pair;                              ///< of unknowns whose nodes the matrix couples; one unknown of each node is enough
+  int weight = 5;                                  ///< work at a node that rows couple to others: it has about so many times the neighbours
 };
 
 /// A symmetric matrix that is to be assembled. Nothing of it is kept.
@@ -30,7 +35,15 @@ struct Shared {
   const Coupling& coupling;
   /// A share whose matrix has the right entries in rows of the flagged unknowns. Several threads call it.
   std::function<Share(const std::vector<char>& own)> share;
-  Assemble assemble;  ///< as the other ranks have it from work_for_rank_0()
+  ShareMakers makers;  ///< as the other ranks have them from work_for_rank_0()
+};
+
+/// A symmetric matrix on bodies that the ranks refine. Rank 0 has the functions of coarser meshes near the boundary only, where components may be prescribed: its
+/// unknowns are those of the first one.
+struct Refined {
+  Shared base;  ///< the coarse bodies: all components of their nodes are unknowns
+  int times;    ///< the first `times` of the functions lead to these bodies
+  const std::vector<algebra::CoarseFunctions>& coarse;  ///< `base.coupling.coarse` are the others, of all components
 };
 
 /// Several ranks share the work where each has enough to do. One process saves memory where there are many unknowns: solvers take the matrix of the slices on
@@ -40,5 +53,7 @@ bool slices_pay_for(double unknowns);
 bool starts();
 /// Assembles the matrix on all ranks, each its own rows. To be called only where both are true.
 std::shared_ptr<const algebra::SlicedMatrix> make_slices(const Shared& matrix);
+/// The same after each rank has refined its share.
+std::shared_ptr<const algebra::SlicedMatrix> make_refined_slices(const Refined& matrix);
 
 }  // namespace dotyk::multigrid

@@ -20,8 +20,8 @@ inline RankAmong rank_by_mpirun() {
 }
 
 /// For ranks other than 0: works until rank 0 ends. A failure on one rank ends the program on all, with a message and status 1. `spawned`: by
-/// start_ranks(), else by mpirun. `assemble` makes the rows of slices. All these functions throw InputError where the library was not built.
-void work_for_rank_0(bool spawned, Assemble assemble);
+/// start_ranks(), else by mpirun. `makers` make the rows of slices. All these functions throw InputError where the library was not built.
+void work_for_rank_0(bool spawned, const ShareMakers& makers);
 /// For rank 0 under mpirun: meets the others, and lets them go when the program ends, also by std::exit.
 void meet_ranks();
 

@@ -166,7 +166,7 @@ int ranks_now() { return petsc_started() ? world().count() : 1; }
 
 void Workers::made() const { ++living(); }
 
-void work(bool spawned, Assemble assemble) {
+void work(bool spawned, const ShareMakers& makers) {
   if (spawned) {
     std::signal(SIGINT, SIG_IGN);  // Ctrl-C is for rank 0, which has the terminal
     start_petsc(true);
@@ -188,7 +188,8 @@ void work(bool spawned, Assemble assemble) {
         case Task::solve: solve(*cycles.at(number), vectors); break;
         case Task::interpolate: interpolate(*cycles.at(number), vectors); break;
         case Task::drop: cycles.erase(number); break;
-        case Task::slice: slices[number] = receive_slice(world(), assemble); break;
+        case Task::slice: slices[number] = receive_slice(world(), makers); break;
+        case Task::refined_slice: slices[number] = receive_refined_slice(world(), makers); break;
         case Task::multiply: multiply(*slices.at(number), vectors); break;
         case Task::some: tell_some(world(), *slices.at(number)); break;
         case Task::drop_slice: slices.erase(number); break;

@@ -8,7 +8,7 @@
 
 namespace dotyk::multigrid {
 
-enum class Task : int { make, set, solve, drop, slice, multiply, some, drop_slice, vectors, order, get, put, get_some, set_some, interpolate, drop_vectors, end };
+enum class Task : int { make, set, solve, drop, slice, refined_slice, multiply, some, drop_slice, vectors, order, get, put, get_some, set_some, interpolate, drop_vectors, end };
 
 /// How rank 0 tells the other ranks what to do for one solver, for the slices of one matrix, or for some vectors. The data of a task are sent after it.
 class Workers {
@@ -39,7 +39,7 @@ void meet_workers();
 /// How many ranks there are; 1 where MPI has not started.
 int ranks_now();
 /// What ranks other than 0 do: the tasks, until the last. `spawned`: by spawn_workers(), else by mpirun.
-void work(bool spawned, Assemble assemble);
+void work(bool spawned, const ShareMakers& makers);
 /// Tells them the last. Called once, by rank 0, when nothing more will be solved.
 void end_workers();
 

@@ -34,11 +34,15 @@ CoarserBlock coarser(const Block& fine, std::vector<algebra::CoarseFunctions> al
   block.kernel = functions.at_coarse(fine.kernel);
   block.motions = fine.motions;
   if (fine.rigid) block.rigid = [rigid = fine.rigid, functions] { return functions.at_coarse(rigid()); };
+  const std::vector<int>& known = fine.coarse.nodes;  // the last of them is repeated
+  const auto nodes_of = [&](std::size_t level) { return known.empty() ? functions.coarse_nodes() : known[std::min(level, known.size() - 1)]; };
+  block.hidden = functions.dimension * (nodes_of(0) - functions.coarse_nodes());
   all.erase(all.begin());
   if (!all.empty()) all[0].row = functions.column, all[0].rows = functions.columns;
   std::vector<int> nodes;
-  for (const algebra::CoarseFunctions& next : all) nodes.push_back(next.coarse_nodes());
+  for (std::size_t l = 0; l < all.size(); ++l) nodes.push_back(nodes_of(l + 1));
   block.coarse = {std::move(nodes), functions.dimension, [all = std::move(all)](int most) { return std::vector(all.begin(), all.begin() + most); }};
+  if (fine.coarse.rigid) block.coarse.rigid = [rigid = fine.coarse.rigid](int levels) { return rigid(levels + 1); };
   return out;
 }
 
@@ -94,7 +98,7 @@ int coarser_meshes(const Problem& problem) {
     for (const Block& block : problem.blocks) {
       const std::vector<int>& nodes = block.coarse.nodes;
       const std::size_t known = std::min(level, nodes.size());
-      sum += known == 0 ? block.size() : block.coarse.dimension * nodes[known - 1];
+      sum += known == 0 ? block.size() + block.hidden : block.coarse.dimension * nodes[known - 1];
     }
     return sum;
   };

@@ -18,6 +18,12 @@ using algebra::SparseMatrix;
 using algebra::SparseRows;
 using algebra::Vector;
 
+int Problem::all_unknowns() const {
+  int all = unknowns();
+  for (const Block& block : blocks) all += block.hidden;
+  return all;
+}
+
 std::size_t Problem::block_of(Eigen::Index unknown) const {
   const auto next = std::upper_bound(blocks.begin(), blocks.end(), unknown, [](Eigen::Index u, const Block& block) { return u < block.first; });
   return static_cast<std::size_t>(next - blocks.begin()) - 1;

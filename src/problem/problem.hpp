@@ -22,6 +22,8 @@ struct CoarseMeshes {
   /// Of so many levels, as elasticity::coarse_functions() says.
   std::function<std::vector<algebra::CoarseFunctions>(int levels)> functions = {};
   int order = 1;  ///< of the elements of the finest mesh
+  /// All rigid motions by the functions of so many coarser meshes; empty: those of Block::rigid, at the nodes of these meshes.
+  std::function<algebra::DenseMatrix(int levels)> rigid = {};
 };
 
 /// One body's energy ½uᵀKu − fᵀu + offset on its own unknowns.
@@ -33,6 +35,7 @@ struct Block {
   std::vector<int> node;        ///< node of each unknown, ascending: what orderings keep together
   algebra::DenseMatrix kernel;  ///< ker K: unknowns × modes, linearly independent columns
   std::vector<Motion> motions;  ///< what the modes are; may be empty
+  int hidden = 0;               ///< unknowns that only the slices of K have: no load, row or kernel is about them, and they are not counted by size()
   int first = 0;                ///< index of its first unknown among all blocks'
   /// All rigid motions of the body on its unknowns, whatever holds it: what multigrid's coarse functions are made of. May be empty.
   std::function<algebra::DenseMatrix()> rigid = {};
@@ -81,6 +84,7 @@ struct Problem {
   std::function<std::string(int)> row_name;
 
   int unknowns() const { return blocks.empty() ? 0 : blocks.back().first + blocks.back().size(); }
+  int all_unknowns() const;  ///< hidden ones among them
   int rows() const { return static_cast<int>(c.size()); }
   /// The index of the block that an unknown belongs to.
   std::size_t block_of(Eigen::Index unknown) const;

@@ -205,7 +205,7 @@ int main(int count, char** words) {
     const dotyk::multigrid::RankAmong place = dotyk::multigrid::rank_by_mpirun();
     const bool spawned = count == 2 && std::string(words[1]) == "--worker";  // by dotyk.ranks
     if (place.rank > 0 || spawned) {
-      dotyk::multigrid::work_for_rank_0(spawned, dotyk::elasticity::assemble_share);
+      dotyk::multigrid::work_for_rank_0(spawned, {dotyk::elasticity::assemble_share, dotyk::elasticity::refinable_share});
       return 0;
     }
     dotyk::multigrid::take_word_worker();

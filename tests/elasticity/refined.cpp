@@ -3,9 +3,12 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <map>
 #include <numbers>
 
+#include "../support/elastic.hpp"
 #include "elasticity/coarse_functions.hpp"
+#include "elasticity/stress.hpp"
 #include "mesh/generators.hpp"
 
 using namespace dotyk;
@@ -132,6 +135,57 @@ TEST_CASE("functions of coarser meshes: linear displacements are among them, pre
         CHECK((P * coarse - u).lpNorm<Eigen::Infinity>() < 1e-14);
         CHECK((P.transpose() * u - functions.transposed_times(u)).lpNorm<Eigen::Infinity>() < 1e-13);  // sums of 27 numbers
         u = coarse;
+      }
+    }
+}
+
+TEST_CASE("near the boundary a mesh refined twice has the nodes, parts and stresses of the whole one, and knows how large that is") {
+  for (const Family family : kEveryFamily)
+    for (const int dimension : {2, 3}) {
+      const Mesh coarse = bent(family, dimension);
+      std::vector<int> parent;
+      const Mesh whole = elasticity::refined(elasticity::refined(coarse)), near = elasticity::refined_near_boundary(coarse, 2, parent);
+      CAPTURE(coarse.topology().name);
+      CAPTURE(dimension);
+      mesh::check(near, "near the boundary");
+      REQUIRE(near.whole);
+      std::vector<int> nodes = mesh::coarser_nodes(whole);
+      CHECK(mesh::coarser_nodes(near) == nodes);
+      CHECK(near.whole->nodes.front() == whole.node_count());
+      CHECK(near.whole->cells == whole.cell_count());
+      CHECK(near.cell_count() < whole.cell_count());
+      CHECK(mesh::boundary(near).size() == mesh::boundary(whole).size());
+      CHECK(measure(near) == doctest::Approx(measure(whole)).epsilon(1e-13));
+      REQUIRE(near.parts.size() == whole.parts.size());
+      for (const auto& [name, facets] : near.parts) CHECK(facets.size() == whole.parts.at(name).size());
+
+      std::map<mesh::Point, int> at;
+      for (int i = 0; i < whole.node_count(); ++i) at[whole.point(i)] = i;
+      std::vector<double> u(whole.coordinates.size()), own;
+      for (int i = 0; i < whole.node_count(); ++i)
+        for (int k = 0; k < dimension; ++k) u[static_cast<std::size_t>(i * dimension + k)] = std::sin(3 * whole.node(i)[k] + whole.node(i)[0]);
+      std::vector<int> same;
+      for (int i = 0; i < near.node_count(); ++i) {
+        REQUIRE(at.contains(near.point(i)));
+        same.push_back(at[near.point(i)]);
+        for (int k = 0; k < dimension; ++k) own.push_back(u[static_cast<std::size_t>(same.back() * dimension + k)]);
+      }
+      const elasticity::MaterialField steel = test::steel(dimension);
+      const auto stress = elasticity::nodal_stress(whole, steel, u), of_near = elasticity::nodal_stress(near, steel, own);
+      for (const mesh::Facet f : mesh::boundary(near))
+        for (int k = 0; k < near.topology().nodes_per_facet; ++k) {
+          const int node = near.facet_node(f, k);
+          for (std::size_t v = 0; v < 6; ++v) CHECK(of_near[node][v] == doctest::Approx(stress[same[node]][v]).scale(1e3).epsilon(1e-10));
+        }
+      // The functions of coarser meshes are those of the whole mesh at these nodes.
+      for (int i = 0; i < near.node_count(); ++i) CHECK(near.coarser->means[i].size() == whole.coarser->means[same[i]].size());
+      for (std::size_t c = 0; c < parent.size(); ++c) {
+        mesh::Point lo{1e9, 1e9, 1e9}, hi{-1e9, -1e9, -1e9};
+        for (int k = 0; k < coarse.topology().nodes; ++k)
+          for (int i = 0; i < dimension; ++i)
+            lo[i] = std::min(lo[i], coarse.node(coarse.cell(parent[c])[k])[i]), hi[i] = std::max(hi[i], coarse.node(coarse.cell(parent[c])[k])[i]);
+        const mesh::Point x = near.cell_centre(static_cast<int>(c));
+        for (int i = 0; i < dimension; ++i) CHECK((x[i] > lo[i] && x[i] < hi[i]));
       }
     }
 }

@@ -146,12 +146,11 @@ class Sharing {
       for (int times = 0; times < kWeight; ++times) edge(a, b);
     });
   }
-  /// Work at nodes: with a row that couples them to others they have about five times as many neighbours.
+  /// Work at nodes: with a row that couples them to others they have more neighbours.
   std::vector<idx_t> finest_weights() const {
-    constexpr idx_t kCoupled = 5;
     std::vector<idx_t> weight(static_cast<std::size_t>(nodes(0)), 1);
     each_coupled([&](int a, int b) {
-      if (a != b) weight[a] = weight[b] = kCoupled;
+      if (a != b) weight[a] = weight[b] = coupling_.weight;
     });
     return weight;
   }
@@ -208,6 +207,23 @@ Numbering::Numbering(const Coupling& coupling, int ranks) {
 Numbering::Numbering(const Numbering& finer, const algebra::CoarseFunctions& functions)
     : block_(functions.dimension), functions_(finer.functions_.begin() + 1, finer.functions_.end()), first_(finer.first_.begin() + 1, finer.first_.end()) {
   for (std::size_t k = 0; k < functions.column.size(); ++k) (functions.column[k] >= 0 ? slot_ : idle_).push_back(finer.functions_[0][k]);
+  take_unknowns();
+}
+
+Numbering::Numbering(const std::vector<std::vector<int>>& first, const std::vector<std::vector<int>>& number, const algebra::CoarseFunctions& functions,
+                     const Numbering& base)
+    : block_(functions.dimension) {
+  for (std::size_t l = 0; l < number.size(); ++l) {
+    std::vector<int> rows, &begin = first_.emplace_back(first[l]);
+    for (int& f : begin) f *= block_;
+    for (const int node : number[l])
+      for (int k = 0; k < block_; ++k) rows.push_back(node * block_ + k);
+    if (l > 0) functions_.push_back(std::move(rows));
+    else
+      for (std::size_t at = 0; at < rows.size(); ++at) (functions.row[at] >= 0 ? slot_ : idle_).push_back(rows[at]);
+  }
+  functions_.insert(functions_.end(), base.functions_.begin(), base.functions_.end());
+  first_.insert(first_.end(), base.first_.begin() + 1, base.first_.end());
   take_unknowns();
 }
 

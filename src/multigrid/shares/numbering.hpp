@@ -19,16 +19,22 @@ class Numbering {
   /// Numbers the unknowns of PᵀKP, the matrix of the next coarser mesh: the functions that have entries. Each stays with the rank that it has in `finer`.
   Numbering(const Numbering& finer, const algebra::CoarseFunctions& functions);
 
+  /// Of meshes that the ranks have refined. By level, the finest first: `first` node of each rank, and the number of all; `number` of the nodes of `functions`, and,
+  /// as its last list, of the nodes of the mesh that `base` is of. Rows of nodes that are not among the functions' have no unknowns here.
+  Numbering(const std::vector<std::vector<int>>& first, const std::vector<std::vector<int>>& number, const algebra::CoarseFunctions& functions, const Numbering& base);
+
   int block() const { return block_; }                                   ///< of the finest level
   const std::vector<int>& slot() const { return slot_; }                 ///< row of each unknown
-  const std::vector<int>& idle() const { return idle_; }                 ///< rows without unknown
+  const std::vector<int>& idle() const { return idle_; }                 ///< rows of components that are not unknown
   /// Row of each column of the functions that lead to `level` ≥ 1.
   const std::vector<int>& functions(int level) const { return functions_[level - 1]; }
   /// Of each rank the first row, and the number of all.
   const std::vector<int>& first(int level) const { return first_[level]; }
   int rank_of(int row) const;  ///< of the finest level
 
-  int unknown(int row) const { return unknown_[row]; }  ///< of a row of the finest level; −1: it is idle
+  int unknown(int row) const { return unknown_[row]; }  ///< of a row of the finest level; −1: it has none
+  /// Have some rows neither an unknown here nor are they idle?
+  bool hides() const { return slot_.size() + idle_.size() < unknown_.size(); }
 
   /// What a rank has of a vector, by its rows of the finest level: of_unknown(i), and zero at idle ones.
   template <class Number>

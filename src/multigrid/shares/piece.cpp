@@ -36,14 +36,11 @@ double mean_diagonal(const algebra::SparseMatrix& lower) {
   return sum / static_cast<double>(lower.cols());
 }
 
-/// The rows of `from` that the new numbering puts into the range. Their columns get new numbers, too. Idle rows are those of the identity.
-Rows some_rows(const algebra::SparseRows& from, const std::vector<int>& number, const Range& range, const std::vector<int>& idle) {
+/// The rows of `from` that the new numbering puts into the range. Their columns get new numbers, too. Rows that it does not have are those of the identity.
+Rows some_rows(const algebra::SparseRows& from, const std::vector<int>& number, const Range& range) {
   std::vector<int> origin(static_cast<std::size_t>(range.count()), -1);  // row of `from`
   for (int i = 0; i < from.rows(); ++i)
     if (const int row = number[i]; range.has(row)) origin[row - range.first] = i;
-  std::vector<char> is_idle(origin.size(), 0);
-  for (const int i : idle)
-    if (range.has(i)) is_idle[i - range.first] = 1;
   Rows rows;
   for (int r = 0; r < range.count(); ++r) {
     if (origin[r] >= 0)
@@ -51,7 +48,7 @@ Rows some_rows(const algebra::SparseRows& from, const std::vector<int>& number, 
         rows.columns.push_back(number[it.col()]);
         rows.values.push_back(it.value());
       }
-    if (is_idle[r]) rows.columns.push_back(range.first + r), rows.values.push_back(1.0);
+    else rows.columns.push_back(range.first + r), rows.values.push_back(1.0);
     rows.starts.push_back(static_cast<int>(rows.columns.size()));
   }
   sort_entries(rows.starts.data(), 0, range.count(), rows.columns.data(), rows.values.data());
@@ -139,7 +136,7 @@ Piece Pieces::of(int rank) {
   p.block = numbering_.block(), p.motions = static_cast<int>(near_kernel_.cols());
   for (int l = 0; l <= meshes; ++l) p.own.push_back(range_of(rank, numbering_, l).count());
   if (!matrix_.slices) p.functions = own_functions(meshes > 0 ? *matrix_.coarse : std::vector<algebra::CoarseFunctions>(), numbering_, rank);
-  if (matrix_.unknowns) p.unknowns = some_rows(*matrix_.unknowns, numbering_.slot(), range_of(rank, numbering_, 0), numbering_.idle());
+  if (matrix_.unknowns) p.unknowns = some_rows(*matrix_.unknowns, numbering_.slot(), range_of(rank, numbering_, 0));
   p.modes = some_modes(near_kernel_, meshes > 0 ? numbering_.functions(meshes) : numbering_.slot(), range_of(rank, numbering_, meshes));
   p.matrix = rows_of(rank, finest_), p.displaced = rows_of(rank, displaced_);
   return p;

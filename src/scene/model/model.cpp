@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <span>
+#include <stdexcept>
 
 #include "base/error.hpp"
 #include "base/listed.hpp"
@@ -37,9 +40,19 @@ std::string supports_of(const Body& body) {
   return listed(all, 4);
 }
 
+/// Of the coarse mesh of a body that ranks refine, whose supports hold the finest mesh.
+elasticity::WeakMotions weak_motions_before_refining(const Unrefined& body, const problem::Block& block) {
+  std::vector<char> fixed;
+  for (const int column : block.coarse.functions(body.times).back().column) fixed.push_back(column < 0);
+  const Numbering numbering = elasticity::number(*body.mesh, fixed, {});
+  const algebra::SymmetricMatrix K = elasticity::assemble(*body.mesh, body.material, {}, numbering);
+  return elasticity::weak_motions(*body.mesh, body.material, {}, numbering, K, algebra::DenseMatrix(numbering.count(), 0));
+}
+
 /// The entry of Model::nearly_free; lowers `softest`.
 std::string nearly_free(const Body& body, const Numbering& numbering, const problem::Block& block, double& softest) {
-  const auto weak = elasticity::weak_motions(*body.mesh, body.material, body.facet_springs(), numbering, block.K, block.kernel);
+  const auto weak = body.unrefined ? weak_motions_before_refining(*body.unrefined, block)
+                                   : elasticity::weak_motions(*body.mesh, body.material, body.facet_springs(), numbering, block.K, block.kernel);
   if (weak.motions.empty()) return "";
   softest = std::min(softest, weak.stiffness);
   const std::string motions = listed(texts(weak.motions));
@@ -100,15 +113,72 @@ void each_pair_of_cells(const Model& model, const std::function<void(int, int)>&
   }
 }
 
+/// For each row of B the unknowns of the coarse bodies that the row's unknowns follow. `coarse`: the functions that lead to these bodies.
+algebra::SparseRows rows_of_coarse(const Model& model, std::span<const algebra::CoarseFunctions> coarse) {
+  const problem::Problem& problem = model.problem;
+  const int d = coarse.front().dimension;
+  std::vector<int> first{0};  // node of each body
+  for (const Body& body : model.bodies) first.push_back(first.back() + body.mesh->node_count());
+  algebra::Triplets entries;
+  for (int r = 0; r < problem.rows(); ++r)
+    for (algebra::SparseRows::InnerIterator it(problem.B, r); it; ++it) {
+      const std::size_t b = problem.block_of(it.col());
+      int node = first[b] + problem.blocks[b].node[it.col() - problem.blocks[b].first];
+      for (const algebra::CoarseFunctions& functions : coarse) node = functions.of(node)[0];
+      entries.emplace_back(r, d * node, 1);
+    }
+  return algebra::from_triplets<algebra::SparseRows>(problem.rows(), d * coarse.back().coarse_nodes(), entries);
+}
+
+/// K of all bodies in slices, refined by the ranks, all of them so many times.
+void assemble_refined_slices(Model& model, int times) {
+  problem::Problem& problem = model.problem;
+  const std::vector<algebra::CoarseFunctions> functions = problem::coarse_functions(problem);
+  if (std::ssize(functions) < times) throw std::logic_error("bodies refined by the ranks, whose coarser meshes are not known");
+  const int d = functions.front().dimension, components = d * functions[times - 1].coarse_nodes();
+  std::vector<algebra::CoarseFunctions> of_base(functions.begin() + times, functions.end());
+  std::vector<int> all(static_cast<std::size_t>(components)), node;
+  std::iota(all.begin(), all.end(), 0);
+  for (const int component : all) node.push_back(component / d);
+  if (!of_base.empty()) of_base.front().row = all, of_base.front().rows = components;
+  const algebra::SparseRows rows = rows_of_coarse(model, std::span(functions).first(static_cast<std::size_t>(times)));
+  const auto each_base = [&](const auto& visit) {  // visit(base, the first of its nodes)
+    int first = 0;
+    for (const Body& body : model.bodies) visit(*body.unrefined, first), first += body.unrefined->mesh->node_count();
+  };
+  constexpr int kCoupled = 4;  // times the work at nodes that rows couple, on the finest mesh
+  const multigrid::Coupling coupling{node, of_base, rows, [&](const auto& visit) {
+    each_base([&](const Unrefined& base, int first) {
+      const int per_cell = mesh::nodes_of(base.mesh->element);
+      for (int c = 0; c < base.mesh->cell_count(); ++c)
+        for (int k = 0; k < per_cell; ++k)
+          for (int l = 0; l < k; ++l) visit(d * (first + base.mesh->cell(c)[k]), d * (first + base.mesh->cell(c)[l]));
+    });
+  }, 1 + (kCoupled >> times)};
+  const auto share = [&](const std::vector<char>& own) {
+    std::vector<Share> of_bodies;
+    each_base([&](const Unrefined& base, int first) {
+      const auto size = static_cast<std::ptrdiff_t>(base.mesh->coordinates.size());
+      const std::vector<char> of_body(own.begin() + d * first, own.begin() + d * first + size);
+      if (std::ranges::none_of(of_body, [](char flag) { return flag; })) return;
+      of_bodies.push_back(elasticity::share(*base.mesh, base.material, {}, elasticity::number(*base.mesh, std::vector<char>(of_body.size(), 0), {}), of_body));
+      for (int& unknown : of_bodies.back().unknowns) unknown += d * first;
+    });
+    return elasticity::joined(std::move(of_bodies));
+  };
+  take_slices(problem, multigrid::make_refined_slices({{coupling, share, {elasticity::assemble_share, elasticity::refinable_share}}, times, functions}));
+}
+
 /// K of all bodies in slices.
 void assemble_slices(Model& model) {
+  if (model.bodies.front().unrefined) return assemble_refined_slices(model, model.bodies.front().unrefined->times);
   problem::Problem& problem = model.problem;
   std::vector<std::vector<elasticity::FacetSpring>> springs;
   for (const Body& body : model.bodies) springs.push_back(body.facet_springs());
   const std::vector<int> nodes = problem::nodes(problem);
   const std::vector<algebra::CoarseFunctions> functions = problem::coarse_functions(problem);
   const multigrid::Coupling coupling{nodes, functions, problem.B, [&](const auto& visit) { each_pair_of_cells(model, visit); }};
-  take_slices(problem, multigrid::make_slices({coupling, [&](const std::vector<char>& own) { return share_of_all(model, springs, own); }, elasticity::assemble_share}));
+  take_slices(problem, multigrid::make_slices({coupling, [&](const std::vector<char>& own) { return share_of_all(model, springs, own); }, {elasticity::assemble_share, elasticity::refinable_share}}));
 }
 
 algebra::StoredMatrix assemble(const Body& body, const Numbering& numbering) {
@@ -132,6 +202,15 @@ void add_body(const Body& body, Model& model) {
   block.coarse = {mesh::coarser_nodes(*body.mesh), body.mesh->dimension(), [mesh = body.mesh, unknown, count = numbering.count()](int levels) {
                     return elasticity::coarse_functions(*mesh, unknown, count, levels);
                   }, body.mesh->topology().order};
+  if (body.unrefined) {
+    block.hidden = body.hidden_components();
+    block.coarse.rigid = [base = body.unrefined, functions = block.coarse.functions](int levels) {
+      const std::vector<algebra::CoarseFunctions> coarse = functions(levels);
+      algebra::DenseMatrix motions = elasticity::all_rigid_motions(*base->mesh, coarse[base->times - 1].column, coarse[base->times - 1].columns);
+      for (int level = base->times; level < levels; ++level) motions = coarse[level].at_coarse(motions);
+      return motions;
+    };
+  }
   block.first = model.problem.unknowns();
   model.problem.blocks.push_back(std::move(block));
 }
@@ -222,6 +301,24 @@ void require_moderate(const problem::Problem& problem, bool cut) {
 
 }  // namespace
 
+namespace {
+
+/// Are the bodies refined by the ranks? Throws where that is not so of all in one way, or where one is not held.
+bool refined_by_ranks(const Model& model) {
+  const auto times = [](const Body& body) { return body.unrefined ? body.unrefined->times : 0; };
+  const Body& first = model.bodies.front();
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const Body& body = model.bodies[b];
+    if (times(body) != times(first))
+      throw InputError(text("'", first.name, "' has refine = ", times(first), ", '", body.name, "' refine = ", times(body), ": on several ranks all bodies of a scene have the same"));
+    if (times(body) > 0 && model.problem.blocks[b].kernel.cols() > 0)
+      throw InputError(text("'", body.name, "' is free to move (", listed(texts(model.problem.blocks[b].motions)), "): with refine on several ranks supports must hold it; contact is not enough"));
+  }
+  return times(first) > 0;
+}
+
+}  // namespace
+
 Model build(const Scene& scene, problem::Clock& clock, Monitor& monitor, const Loading& loading,
             const std::optional<problem::Decomposition>& decomposition, const std::function<bool(const problem::Problem&)>& slices) {
   Stopwatch watch;
@@ -232,8 +329,11 @@ Model build(const Scene& scene, problem::Clock& clock, Monitor& monitor, const L
   }
   monitor.check();
   set_rows(scene, loading, model);
-  const bool in_slices = slices && multigrid::slices_pay_for(model.problem.unknowns()) && slices(model.problem) && multigrid::starts();
-  if (in_slices) monitor.phase(text("assembling (", model.problem.unknowns(), " unknowns)")), assemble_slices(model);
+  const int unknowns = model.problem.all_unknowns();
+  const bool refined = refined_by_ranks(model);
+  const bool in_slices = slices && (refined || multigrid::slices_pay_for(unknowns)) && slices(model.problem) && multigrid::starts();
+  if (refined && !in_slices) throw InputError("bodies with refine are solved by the ranks that refine them: name the method dotyk.solver.multigrid{}, or run on one rank");
+  if (in_slices) monitor.phase(text("assembling (", unknowns, " unknowns)")), assemble_slices(model);
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     const Body& body = model.bodies[b];
     problem::Block& block = model.problem.blocks[b];

@@ -14,6 +14,7 @@ using mesh::Mesh;
 using mesh::Point;
 
 std::shared_ptr<const Mesh> moved_mesh(const Body& body, const std::vector<double>& points) {
+  require_whole(body, "another design");
   if (points.size() != body.mesh->coordinates.size())
     throw InputError(text("'", body.name, "' has ", body.mesh->node_count(), " nodes, ", body.mesh->coordinates.size(),
                           " coordinates; ", points.size(), " are given to move them to"));

@@ -148,7 +148,8 @@ Place Solution::place(int body, const Point& x) const {
   const Body& b = this->body(body);
   if (!locators_[body]) locators_[body].emplace(*b.mesh);
   if (const auto found = locators_[body]->find(x)) return *found;
-  throw InputError(text("the point ", point_text(x.data(), b.dimension()), " lies outside '", b.name, "' at rest"));
+  const std::string point = "the point " + point_text(x.data(), b.dimension());
+  throw InputError(b.unrefined ? text(point, " lies in no cell at the boundary of '", b.name, "', whose inner cells are with the ranks") : text(point, " lies outside '", b.name, "' at rest"));
 }
 
 Point Solution::displacement(int body, const Point& x) const {

@@ -20,7 +20,8 @@ namespace {
 
 std::string describe_body(const Body& body) {
   return text("  '", body.name, "': ", body.mesh->topology().name, " ", body.mesh->topology().shapes, ", ",
-              body.mesh->node_count(), " nodes, ", body.mesh->cell_count(), " cells");
+              body.node_count(), " nodes, ", body.cell_count(), " cells",
+              body.unrefined ? ", refined by the ranks" : "");
 }
 
 std::string describe_contact(const Contact& contact) {
@@ -156,7 +157,7 @@ std::string plan(const Scene& scene) {
     const auto numbering = number(*body);
     const auto rigid = elasticity::rigid_modes(*body->mesh, numbering, body->facet_springs());
     free += static_cast<int>(rigid.motions.size());
-    out += "\n" + describe_body(*body) + text(", ", numbering.count(), " unknowns");
+    out += "\n" + describe_body(*body) + text(", ", numbering.count() + body->hidden_components(), " unknowns");
     out += rigid.motions.empty() ? "; held by its supports" : body->laws.empty() ? "; free to move but for contact: "
                                    : "; free to move but for contact and laws of supports: ";
     out += listed(texts(rigid.motions));

@@ -1,9 +1,13 @@
 #include "scene/statement/body.hpp"
 
+#include <numeric>
+
 #include "base/error.hpp"
 #include "base/listed.hpp"
 #include "base/text.hpp"
+#include "elasticity/refined.hpp"
 #include "mesh/decomposition.hpp"
+#include "multigrid/start_ranks.hpp"
 
 namespace dotyk::scene {
 
@@ -33,21 +37,62 @@ void require_one_piece(const mesh::Mesh& mesh, const std::string& name) {
 
 }  // namespace
 
+namespace {
+
+/// Throws where these cannot make a body.
+void require_sound(const mesh::Mesh& mesh, const elasticity::MaterialField& material, const std::string& name) {
+  mesh::check(mesh, "body '" + name + "'");
+  if (mesh.cell_count() == 0) throw InputError("the mesh of '" + name + "' has no cells");
+  require_one_piece(mesh, name);
+  if (material.at(0).dimension != mesh.dimension())
+    throw InputError(text("the material of '", name, "' is for ", material.at(0).dimension, "-D, its mesh is ", mesh.dimension(), "-D"));
+}
+
+}  // namespace
+
 std::shared_ptr<Body> make_body(std::string name, std::shared_ptr<const mesh::Mesh> mesh,
                                 elasticity::MaterialField material,
                                 const elasticity::VectorField& force) {
+  require_sound(*mesh, material, name);
   auto body = std::make_shared<Body>();
-  mesh::check(*mesh, "body '" + name + "'");
-  if (mesh->cell_count() == 0) throw InputError("the mesh of '" + name + "' has no cells");
-  require_one_piece(*mesh, name);
-  if (material.at(0).dimension != mesh->dimension())
-    throw InputError(text("the material of '", name, "' is for ", material.at(0).dimension,
-                          "-D, its mesh is ", mesh->dimension(), "-D"));
   body->name = std::move(name);
   body->mesh = std::move(mesh);
   body->material = std::move(material);
   if (force) load_volume(*body, force);
   return body;
+}
+
+std::shared_ptr<Body> make_refined_body(std::string name, std::shared_ptr<const mesh::Mesh> mesh, elasticity::MaterialField material, int times,
+                                        const elasticity::VectorField& force, Monitor& monitor) {
+  if (times == 0) return make_body(std::move(name), std::move(mesh), std::move(material), force);
+  require_sound(*mesh, material, name);
+  std::vector<int> parent;
+  if (multigrid::count_ranks() == 1) {
+    parent.resize(static_cast<std::size_t>(mesh->cell_count()));
+    std::iota(parent.begin(), parent.end(), 0);
+    auto finer = mesh;
+    for (int k = 0; k < times; ++k) {
+      finer = std::make_shared<const mesh::Mesh>(elasticity::refined(*finer, &monitor));
+      std::vector<int> of_finer;
+      for (const int p : parent) of_finer.insert(of_finer.end(), mesh->dimension() == 2 ? 4 : 8, p);
+      parent.swap(of_finer);
+    }
+    return make_body(std::move(name), finer, material.of(parent), force);
+  }
+  auto body = std::make_shared<Body>();
+  body->name = std::move(name);
+  body->mesh = std::make_shared<const mesh::Mesh>(elasticity::refined_near_boundary(*mesh, times, parent, &monitor));
+  mesh::check(*body->mesh, "body '" + body->name + "'");
+  body->material = material.of(parent);
+  body->unrefined = std::make_shared<const Unrefined>(Unrefined{std::move(mesh), std::move(material), times});
+  if (force) load_volume(*body, force);
+  return body;
+}
+
+void require_whole(const Body& body, const std::string& what) {
+  if (body.unrefined)
+    throw InputError(text("'", body.name, "' was given refine = ", body.unrefined->times, ", so that on ", multigrid::count_ranks(), " ranks its inner cells are not in one place; ",
+                          what, " needs them: give the refined mesh (mesh:refined), or run on one rank"));
 }
 
 PartMark Part::mark() const {

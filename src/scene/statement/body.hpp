@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/monitor.hpp"
 #include "contact/matching.hpp"
 #include "contact/sides.hpp"
 #include "elasticity/assembly.hpp"
@@ -107,12 +108,20 @@ struct LawSupport {
   bool breaks(std::size_t node) const { return node < broken.size() && broken[node]; }
 };
 
+/// Where the ranks refine a body's mesh: what it was before.
+struct Unrefined {
+  std::shared_ptr<const mesh::Mesh> mesh;
+  elasticity::MaterialField material;
+  int times;
+};
+
 /// An elastic body with its supports and loads. All fields are evaluated as they are given:
 /// a body holds numbers only.
 struct Body {
   std::string name;
   std::shared_ptr<const mesh::Mesh> mesh;
   elasticity::MaterialField material;
+  std::shared_ptr<const Unrefined> unrefined;  ///< where `mesh` has the cells near the boundary alone; null: it is whole
   std::vector<Support> supports;
   std::vector<SlideRow> slides;
   std::vector<SpringPatch> springs;
@@ -126,6 +135,11 @@ struct Body {
   std::shared_ptr<const Body> origin;
 
   int dimension() const { return mesh->dimension(); }
+  /// Of the whole mesh.
+  int node_count() const { return mesh->whole ? mesh->whole->nodes.front() : mesh->node_count(); }
+  double cell_count() const { return mesh->whole ? mesh->whole->cells : mesh->cell_count(); }
+  /// Components of nodes that only the ranks have.
+  int hidden_components() const { return dimension() * (node_count() - mesh->node_count()); }
   std::vector<elasticity::FacetSpring> facet_springs() const;
 };
 
@@ -145,6 +159,14 @@ struct Part {
 std::shared_ptr<Body> make_body(std::string name, std::shared_ptr<const mesh::Mesh> mesh,
                                 elasticity::MaterialField material,
                                 const elasticity::VectorField& force);
+
+/// A body of the mesh refined so many times, its material that of the cells of `mesh`. Where there are several ranks they refine it; this one then has the cells near
+/// the boundary.
+std::shared_ptr<Body> make_refined_body(std::string name, std::shared_ptr<const mesh::Mesh> mesh, elasticity::MaterialField material, int times,
+                                        const elasticity::VectorField& force, Monitor& monitor);
+
+/// Throws InputError where the body's inner cells are with the ranks. `what` needs them: "a force per volume".
+void require_whole(const Body& body, const std::string& what);
 
 /// Names of the parts that the body's mesh brings.
 std::vector<std::string> part_names(const Body& body);

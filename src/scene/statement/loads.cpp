@@ -78,6 +78,7 @@ void pressure(Part& part, const elasticity::ScalarField& value, const std::strin
 }
 
 void load_volume(Body& body, const elasticity::VectorField& force) {
+  require_whole(body, "a force per volume");
   const std::size_t dim = body.dimension();
   VolumeLoad load{elasticity::cell_points(*body.mesh), true, nullptr, 1};
   std::vector<double> values;  // while they are all alike, one
@@ -141,6 +142,7 @@ std::vector<Point> cell_forces(const Body& body) {
 }
 
 void spring(Part& part, const std::array<elasticity::ScalarField, 3>& stiffness) {
+  require_whole(*part.body, "a spring (but not part:support{ normal = elastic })");
   std::vector<SpringPatch> patches;
   const PartMark mark = part.mark();
   for (const mesh::Facet f : part.facets) {

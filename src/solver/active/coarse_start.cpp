@@ -27,7 +27,7 @@ class CoarseRows : public RowSubset {
 }  // namespace
 
 CoarseStart coarse_start(const Problem& problem, const Pdas& settings, Monitor& monitor) {
-  if (problem.rows() == 0 || problem.unknowns() <= kSmall || problem::coarser_meshes(problem) == 0) return {};
+  if (problem.rows() == 0 || problem.all_unknowns() <= kSmall || problem::coarser_meshes(problem) == 0) return {};
   CoarseStart start;
   Stopwatch watch;
   monitor.phase("ordering");
@@ -52,7 +52,7 @@ CoarseStart coarse_start(const Problem& problem, const Pdas& settings, Monitor& 
     begun.from = before.state, begun.stiffness = before.stiffness, begun.nested = false, begun.rough = true;
     begun.tol = std::max(begun.tol, kTolerance);
     meshes = before.meshes + 1;
-    result = part.unknowns() > kSmall ? solve(part, begun, inner) : solve(part, {}, {}, inner);
+    result = part.all_unknowns() > kSmall ? solve(part, begun, inner) : solve(part, {}, {}, inner);
   } catch (const Interrupted&) {
     throw;
   } catch (const SlowIterations&) {

@@ -1,4 +1,5 @@
 // The linear solvers of HeldStiffness.
+#include <algorithm>
 #include <utility>
 
 #include "multigrid/multigrid.hpp"
@@ -16,15 +17,21 @@ using problem::Problem;
 
 namespace {
 
-/// The rigid motions of all bodies moving as one. No columns if a block has no function `rigid`.
-DenseMatrix all_rigid_motions(const Problem& problem) {
-  DenseMatrix all(problem.unknowns(), 0);
+/// The rigid motions of all bodies moving as one, by the last of these functions. No columns if a block has no function `rigid`.
+DenseMatrix all_rigid_motions(const Problem& problem, const std::vector<algebra::CoarseFunctions>& coarse) {
+  const auto levels = static_cast<int>(coarse.size());
+  const bool told = levels > 0 && std::ranges::all_of(problem.blocks, [](const problem::Block& block) { return bool(block.coarse.rigid); });
+  DenseMatrix all(told ? coarse.back().columns : problem.unknowns(), 0);
+  Eigen::Index first = 0;
   for (const problem::Block& block : problem.blocks) {
-    if (!block.rigid) return DenseMatrix(problem.unknowns(), 0);
-    const DenseMatrix own = block.rigid();
-    if (all.cols() == 0) all.setZero(problem.unknowns(), own.cols());
-    all.middleRows(block.first, block.size()) = own;
+    if (!block.rigid) return DenseMatrix(all.rows(), 0);
+    const DenseMatrix own = told ? block.coarse.rigid(levels) : block.rigid();
+    if (all.cols() == 0) all.setZero(all.rows(), own.cols());
+    all.middleRows(first, own.rows()) = own;
+    first += own.rows();
   }
+  for (const algebra::CoarseFunctions& functions : coarse)
+    if (!told) all = functions.at_coarse(all);
   return all;
 }
 
@@ -91,11 +98,7 @@ MakeSpdSolver multigrid(Levels levels, double most_iterations) {
     else if (!s.slices && other_signs) K = s.lower, K = s.basis.with_signs(std::move(K));
     algebra::Triplets changed, beside;
     if (other_signs) changed = SignedSolver::of_K(s.changed, s.basis.signs), beside = SignedSolver::of_K(s.beside_slices, s.basis.signs);
-    multigrid::Matrix matrix{other_signs && !s.slices ? K : s.lower, nodes, [&] {
-                               DenseMatrix motions = all_rigid_motions(s.problem);
-                               for (const algebra::CoarseFunctions& functions : coarse) motions = functions.at_coarse(motions);
-                               return motions;
-                             }};
+    multigrid::Matrix matrix{other_signs && !s.slices ? K : s.lower, nodes, [&] { return all_rigid_motions(s.problem, coarse); }};
     matrix.rows = &s.problem.B, matrix.changed = other_signs ? &changed : &s.changed;
     matrix.slices = s.slices, matrix.beside_slices = other_signs ? &beside : &s.beside_slices;
     matrix.most_iterations = most_iterations;

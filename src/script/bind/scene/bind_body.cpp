@@ -1,3 +1,4 @@
+#include "multigrid/start_ranks.hpp"
 #include "script/bind/bind.hpp"
 #include "script/help/nearest.hpp"
 #include "script/bind/scene/space.hpp"
@@ -64,7 +65,10 @@ std::shared_ptr<Body> make_body(Call& call) {
   const auto material = call.object<Material>("material");
   elasticity::VectorField force;
   if (call.has("force")) force = vector_field(call.field("force", mesh->dimension()), mesh->dimension());
-  return scene::make_body(call.text("name"), mesh, material_field(call, *material, *mesh), force);
+  const auto times = call.has("refine") ? call.integer("refine") : 0;
+  if (times > 0 && multigrid::count_ranks() == 1) require_room_to_refine(*mesh, times);
+  Watch watch(call.state(), "refining");
+  return scene::make_refined_body(call.text("name"), mesh, material_field(call, *material, *mesh), static_cast<int>(times), force, watch);
 }
 
 std::shared_ptr<Part> make_part(Call& call) {
@@ -172,7 +176,7 @@ Self pressure(Call& call) {
 
 std::string show_body(const Body& b) {
   return text("body '", b.name, "': ", b.mesh->topology().name, " ", b.mesh->topology().shapes, ", ",
-              b.mesh->node_count(), " nodes, ", b.supports.size() + b.laws.size() + (b.slides.empty() ? 0 : 1), " supports");
+              b.node_count(), " nodes, ", b.supports.size() + b.laws.size() + (b.slides.empty() ? 0 : 1), " supports");
 }
 
 Key component(const char* name) { return key::choice(name, {"x", "y", "z"}, "a component"); }
@@ -277,14 +281,16 @@ void bind_body(Library& library) {
                         {key::string("name", "what messages and figures call it").fallback("body"),
                          key::object<MeshHandle>("mesh", "its shape at rest").required(),
                          key::object<Material>("material", "what it is made of").required(),
-                         key::field("force", "force per volume, its components").unit("force/volume").otherwise("none")})},
+                         key::field("force", "force per volume, its components").unit("force/volume").otherwise("none"),
+                         key::integer("refine", "how often all cells are cut, into 4 in the plane, 8 in space, as by mesh:refined; E and nu are those of the cells before. "
+                                                "Several ranks cut them where they work, so that none has the whole mesh: dotyk.solver.multigrid{} alone solves such a body").within(0, 10).otherwise("0")})},
                     .run = make_body});
   library.type<Body>("An elastic body with its supports and loads.")
       .setup(setup::block())
       .field("name", "its name", [](const Body& b) { return b.name; })
       .field("dimension", "2 or 3", [](const Body& b) { return b.dimension(); })
-      .field("node_count", "number of nodes", [](const Body& b) { return b.mesh->node_count(); })
-      .field("cell_count", "number of cells", [](const Body& b) { return b.mesh->cell_count(); })
+      .field("node_count", "number of nodes", [](const Body& b) { return b.node_count(); })
+      .field("cell_count", "number of cells", [](const Body& b) { return b.cell_count(); })
       .field("parts", "names of the parts that its mesh brings", scene::part_names)
       .method({.name = "body:part",
                .help = "A part of the boundary: one that the mesh names, or the facets that a function of the facet's "

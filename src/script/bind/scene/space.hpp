@@ -2,6 +2,7 @@
 // Points and fields of scripts as the numerical rooms take them.
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -104,6 +105,9 @@ inline scene::Friction friction(const Call& call, const char* name, int dimensio
 inline Key tangential_key(const char* help) {
   return key::either("tangential", {key::object<problem::SupportLaw>("", ""), key::object<scene::Friction>("", "")}, help).otherwise("free");
 }
+
+// Throws InputError where memory has no room for the mesh refined so many times, or solvers of one machine for its unknowns.
+void require_room_to_refine(const mesh::Mesh& mesh, std::int64_t times);
 
 // The field at every node: node × dimension.
 inline std::vector<double> at_nodes(const Field& field, const mesh::Mesh& mesh) {

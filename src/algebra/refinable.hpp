@@ -1,0 +1,24 @@
+#pragma once
+
+#include <vector>
+
+#include "algebra/types.hpp"
+#include "base/buckets.hpp"
+#include "base/lists.hpp"
+
+namespace dotyk::algebra {
+
+/// Cells of some bodies that one process refines and assembles.
+class Refinable {
+ public:
+  virtual ~Refinable() = default;
+  virtual int dimension() const = 0;  ///< components of a node
+  /// Refines all cells once. Node → the nodes before whose mean it is.
+  virtual Buckets refine() = 0;
+  /// Keeps the cells that have a flagged node. Returns what number each node left had before; ascending.
+  virtual std::vector<int> keep(const std::vector<char>& flagged) = 0;
+  /// The lower triangle of the stiffness of these cells, node × dimension without the components flagged in `fixed`. The cells are gone then.
+  virtual StoredMatrix assemble(const std::vector<char>& fixed) = 0;
+};
+
+}  // namespace dotyk::algebra

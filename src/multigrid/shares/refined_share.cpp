@@ -1,0 +1,150 @@
+#include "multigrid/shares/refined_share.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <span>
+#include <stdexcept>
+#include <utility>
+
+#include "multigrid/rows/own_rows.hpp"
+
+namespace dotyk::multigrid {
+
+PrescribedBits prescribed_bits(const std::vector<int>& rows, int dimension) {
+  PrescribedBits bits;
+  for (const int row : rows) bits[row / dimension] |= 1 << row % dimension;
+  return bits;
+}
+
+namespace {
+
+int bits_of(int node, const PrescribedBits& prescribed) {
+  const auto at = prescribed.find(node);
+  return at == prescribed.end() ? 0 : at->second;
+}
+
+std::span<const int> columns_of(const Rows& rows, std::size_t k) {
+  return {rows.columns.data() + rows.starts[k], static_cast<std::size_t>(rows.starts[k + 1] - rows.starts[k])};
+}
+
+/// Nodes whose numbers other ranks know.
+class Questions {
+ public:
+  explicit Questions(const Ranks& ranks) : ranks_(ranks), asked_(static_cast<std::size_t>(ranks.count())), places_(asked_) {}
+
+  void ask(std::size_t rank, std::span<const int> means, std::size_t place) {
+    asked_[rank].push_back(static_cast<int>(means.size()));
+    asked_[rank].insert(asked_[rank].end(), means.begin(), means.end());
+    places_[rank].push_back(static_cast<int>(place));
+  }
+  /// Calls find(means) for what the others ask, and put(place, number) for what was asked. Collective.
+  template <class Find, class Put>
+  void answer(const Find& find, const Put& put) {
+    std::vector<std::vector<int>> told(asked_.size());
+    const auto of_others = ranks_.exchange(asked_);
+    for (std::size_t r = 0; r < told.size(); ++r)
+      for (std::size_t k = 0; k < of_others[r].size(); k += static_cast<std::size_t>(of_others[r][k]) + 1)
+        told[r].push_back(find(std::span(of_others[r]).subspan(k + 1, static_cast<std::size_t>(of_others[r][k]))));
+    told = ranks_.exchange(told);
+    for (std::size_t r = 0; r < told.size(); ++r)
+      for (std::size_t k = 0; k < told[r].size(); ++k) put(places_[r][k], told[r][k]);
+  }
+
+ private:
+  const Ranks& ranks_;
+  std::vector<std::vector<int>> asked_, places_;
+};
+
+}  // namespace
+
+RefinedShare::RefinedShare(const Ranks& ranks, std::unique_ptr<algebra::Refinable> cells, std::vector<int> number, std::vector<int> first)
+    : ranks_(ranks), cells_(std::move(cells)), dimension_(cells_->dimension()), number_(std::move(number)), first_{std::move(first)} {}
+
+std::vector<int> RefinedShare::refine(const Rows& asked) {
+  Rows means;
+  {
+    const Buckets here = cells_->refine();
+    std::vector<int> row;
+    for (int i = 0; i < here.count(); ++i) {
+      for (const int p : here[i]) row.push_back(number_[p]);
+      means.append_columns(row);
+    }
+  }
+  const std::vector<int>& first = first_.front();
+  const int begin = first[ranks_.own()], end = first[ranks_.own() + 1];
+  const auto nodes = means.starts.size() - 1;
+  const auto decides = [greatest = first_.size() % 2 == 0](std::span<const int> of_node) { return greatest ? of_node.back() : of_node.front(); };
+  const auto rank_of = [&](std::span<const int> of_node) { return static_cast<std::size_t>(std::ranges::upper_bound(first, decides(of_node)) - first.begin()) - 1; };
+  std::vector<char> own(nodes);
+  for (std::size_t i = 0; i < nodes; ++i) own[i] = decides(columns_of(means, i)) >= begin && decides(columns_of(means, i)) < end;
+  std::vector<int> finer = ranks_.gather(static_cast<int>(std::ranges::count(own, 1)));
+  finer.insert(finer.begin(), 0);
+  std::partial_sum(finer.begin(), finer.end(), finer.begin());
+
+  std::vector<int> number(nodes, -1);
+  Rows own_means;
+  for (std::size_t i = 0, next = finer[ranks_.own()]; i < nodes; ++i) {
+    if (!own[i]) continue;
+    number[i] = static_cast<int>(next++);
+    const auto of_node = columns_of(means, i);
+    own_means.columns.insert(own_means.columns.end(), of_node.begin(), of_node.end());
+    own_means.starts.push_back(static_cast<int>(own_means.columns.size()));
+  }
+  const Buckets decided(end - begin, [&](auto&& put) {
+    for (std::size_t i = 0; i < nodes; ++i)
+      if (own[i]) put(decides(columns_of(means, i)) - begin, static_cast<int>(i));
+  });
+
+  const std::vector<int> before = cells_->keep(own);
+  std::vector<int> numbers(before.size() + asked.starts.size() - 1);
+  Questions questions(ranks_);
+  for (std::size_t k = 0; k < before.size(); ++k) {
+    const auto i = static_cast<std::size_t>(before[k]);
+    if (own[i]) numbers[k] = number[i];
+    else questions.ask(rank_of(columns_of(means, i)), columns_of(means, i), k);
+  }
+  for (std::size_t a = 0; a + 1 < asked.starts.size(); ++a) questions.ask(rank_of(columns_of(asked, a)), columns_of(asked, a), before.size() + a);
+  questions.answer(
+      [&](std::span<const int> of) {
+        for (const int i : decided[decides(of) - begin])
+          if (std::ranges::equal(columns_of(means, static_cast<std::size_t>(i)), of)) return number[i];
+        throw std::logic_error("refined share: a node that its rank has not");
+      },
+      [&](int place, int is) { numbers[place] = is; });
+  std::vector<int> of_asked(numbers.begin() + std::ssize(before), numbers.end());
+  numbers.resize(before.size());
+  number_ = std::move(numbers);
+  first_.insert(first_.begin(), std::move(finer)), means_.insert(means_.begin(), std::move(own_means));
+  return of_asked;
+}
+
+OwnFunctions RefinedShare::functions(int level, const PrescribedBits& prescribed, const PrescribedBits& coarse_prescribed) const {
+  const Rows& means = means_[level];
+  const int begin = first_[level][ranks_.own()], all = (1 << dimension_) - 1;
+  OwnFunctions own;
+  own.starts = means.starts;
+  own.component.reserve((means.starts.size() - 1) * static_cast<std::size_t>(dimension_)), own.means.reserve(means.columns.size());
+  for (int i = 0; i + 1 < std::ssize(means.starts); ++i) {
+    const int bits = bits_of(begin + i, prescribed);
+    for (int k = 0; k < dimension_; ++k) own.component.push_back(bits >> k & 1 ? -1 : k);
+  }
+  for (const int p : means.columns) own.means.push_back(p * OwnFunctions::kComponents + (all & ~bits_of(p, coarse_prescribed)));
+  return own;
+}
+
+HalfRows RefinedShare::assemble(const PrescribedBits& prescribed) {
+  std::vector<char> fixed;
+  std::vector<int> slot;
+  for (const int node : number_) {
+    const int bits = bits_of(node, prescribed);
+    for (int k = 0; k < dimension_; ++k) {
+      fixed.push_back(static_cast<char>(bits >> k & 1));
+      if (!fixed.back()) slot.push_back(node * dimension_ + k);
+    }
+  }
+  const algebra::StoredMatrix lower = cells_->assemble(fixed);
+  const std::vector<int>& first = first_.front();
+  return own_rows(lower, slot, dimension_, first[ranks_.own()], first[ranks_.own() + 1] - first[ranks_.own()]);
+}
+
+}  // namespace dotyk::multigrid

@@ -1,0 +1,47 @@
+// Cells that each rank refines itself, and the numbers of their nodes.
+#pragma once
+
+#include <memory>
+#include <unordered_map>
+#include <vector>
+
+#include "algebra/refinable.hpp"
+#include "multigrid/rows/half_matrix.hpp"
+#include "multigrid/rows/own_functions.hpp"
+
+namespace dotyk::multigrid {
+
+/// Prescribed components: of each node that has some a bit for each.
+using PrescribedBits = std::unordered_map<int, int>;
+/// From rows, node × dimension + component.
+PrescribedBits prescribed_bits(const std::vector<int>& rows, int dimension);
+
+/// One rank's cells about its own nodes. Nodes of all ranks are numbered so that those of a rank follow one another. A node of a finer mesh is known by the nodes
+/// whose mean it is; it belongs to the rank of the one with the least number or, every second time, the greatest: else low ranks would get more. So no rank needs the cells of
+/// others.
+class RefinedShare {
+ public:
+  /// `number`: of each node of the cells; `first`: of each rank its first node, and the number of all.
+  RefinedShare(const Ranks& ranks, std::unique_ptr<algebra::Refinable> cells, std::vector<int> number, std::vector<int> first);
+
+  /// Refines once, and keeps the cells about own nodes. `asked`: of any nodes of the finer mesh, the numbers of the nodes whose mean each is. Returns the numbers
+  /// of these nodes. Collective.
+  std::vector<int> refine(const Rows& asked);
+
+  /// By level, the finest first; the last are those of the constructor.
+  const std::vector<std::vector<int>>& first() const { return first_; }
+  /// The rows of P, see OwnFunctions, that lead from the level after `level` to it.
+  OwnFunctions functions(int level, const PrescribedBits& prescribed, const PrescribedBits& coarse_prescribed) const;
+  /// Own rows of the stiffness of the finest level, zero at prescribed components. The cells are gone then.
+  HalfRows assemble(const PrescribedBits& prescribed);
+
+ private:
+  const Ranks& ranks_;
+  std::unique_ptr<algebra::Refinable> cells_;
+  const int dimension_;
+  std::vector<int> number_;               ///< of each node of the cells
+  std::vector<std::vector<int>> first_;
+  std::vector<Rows> means_;               ///< by level, of own nodes: numbers of the level after it
+};
+
+}  // namespace dotyk::multigrid
