@@ -1,14 +1,16 @@
 -- How much a second process helps: strong and weak scaling of multigrid.
 --
---   ./dotyk scripts/studies/scaling.lua [N] [RUNS] [RANKS]
+--   ./dotyk scripts/studies/scaling.lua [N] [RUNS] [RANKS] [REFINE]
 --
 -- S3, a rigid paraboloid on a cube of N³ cells. Strong: the same cube on 1 process and on RANKS. Weak: on RANKS processes a row of so many cubes, which are
 -- one body, each under a paraboloid of its own: N³ cells for each process, the same cells and levels. Also a cube of so many cells more: its levels are
 -- others, and Newton's method may take another number of steps. Each process has one core. Runs take turns, since machines change their speed; medians.
+-- Cells are cut REFINE times (1; 0: rank 0 makes the whole mesh and shares it out).
 -- What memory allows is measured beside it: RANKS processes that know nothing of each other, each with a cube of its own.
 -- Prints seconds of the whole solve and the efficiency: seconds of one process, times the cells' ratio, over RANKS times the seconds.
 
 local n <const>, runs <const>, ranks <const> = tonumber(arg[1]) or 32, tonumber(arg[2]) or 3, tonumber(arg[3]) or 2
+local refine <const> = tonumber(arg[4]) or 1
 local program <const> = io.popen("readlink /proc/$PPID/exe"):read "l"
 local here <const> = arg[0]:match "(.*/)" or "./"
 local median <const> = include "../lib/punch_scenes.lua".median
@@ -21,7 +23,7 @@ local scenes = dofile "%s../lib/scale_scenes.lua"
 local ranks, n, row = tonumber(arg[1]), tonumber(arg[2]), tonumber(arg[3])
 if ranks > 1 then dotyk.ranks(ranks) end
 dotyk.solver.multigrid{}:solve(scenes.cube(4)) -- opens the library
-local s = dotyk.solver.multigrid{}:solve(scenes.cube(n, { row = row }))
+local s = dotyk.solver.multigrid{}:solve(scenes.cube(n, { row = row, refine = tonumber(arg[4]) }))
 assert(s.converged, s.reason)
 print(("%%d %%.17g %%d %%d %%.17g"):format(s.unknowns, s.time.total, s.multigrid.newton, s.multigrid.cg, s.energy / row))
 ]]):format(here))
@@ -29,7 +31,7 @@ print(("%%d %%.17g %%d %%d %%.17g"):format(s.unknowns, s.time.total, s.multigrid
 end
 
 local function start(processes, cells, row, core)
-  return io.popen(("OPENBLAS_NUM_THREADS=1 taskset -c %s '%s' '%s' %d %d %d 2>&1"):format(core, program, child, processes, cells, row))
+  return io.popen(("OPENBLAS_NUM_THREADS=1 taskset -c %s '%s' '%s' %d %d %d %d 2>&1"):format(core, program, child, processes, cells, row, refine))
 end
 local function finish(pipe)
   local line <const> = pipe:read "a"
@@ -46,7 +48,8 @@ for first, last in io.popen("grep Cpus_allowed_list /proc/self/status | cut -f2 
 end
 if #cores < ranks then error(("scaling: %d processes need a core each, and this machine gives %d"):format(ranks, #cores), 0) end
 local all_cores <const> = table.concat(cores, ",", 1, ranks)
-local larger <const> = 2 * math.floor(n * ranks^(1 / 3) / 2 + 0.5)
+local step <const> = 2 << refine
+local larger <const> = step * math.floor(n * ranks^(1 / 3) / step + 0.5)
 local cases <const> = {
   { "one process", function() return finish(start(1, n, 1, cores[1])) end },
   { "strong", function() return finish(start(ranks, n, 1, all_cores)) end, cells = 1 },

@@ -54,7 +54,7 @@ class SymmetricMatrix {
     static const SparseMatrix none;
     if (!content_) return none;
     if (slices()) std::call_once(content_->once, [&] {
-      if (slices()->hides()) throw InputError("the stiffness of bodies that ranks refine is with the ranks: only dotyk.solver.multigrid{} works there");
+      if (slices()->hides()) throw InputError("the stiffness of bodies with refine is with the ranks: only dotyk.solver.multigrid{} works there");
       std::vector<char> all(static_cast<std::size_t>(rows()), 1);
       StoredMatrix whole = slices()->near(all);
       content_->lower.swap(whole);

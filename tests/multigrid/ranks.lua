@@ -73,4 +73,87 @@ if not told("cube(4)"):find("libpetsc", 1, true) then
     check.near(tonumber(energy), -0.05, 1e-10)
     check.that(math.abs(tonumber(x)) < 1e-8 and math.abs(tonumber(y)) < 1e-8, "the block has moved: " .. text)
   end
+
+  -- Bodies that ranks refine: the numbers of one process, which has the whole meshes. Two bodies whose meshes do not match; triangles of order 2; a mesh that has
+  -- coarser ones of its own, and aggregates after them.
+  local refined <const> = [[
+    local function material(E) return dotyk.material{ E = E, nu = 0.3 } end
+    local function say(s, c, body, part, ...)
+      local numbers = { s.unknowns, s.rows, s.energy, s:contact(c).area, s:stress(body, ...).von_mises }
+      for _, list in ipairs{ s:contact(c).force, { s:displacement(body, ...) }, { s:reaction(part) } } do for i = 1, #list do numbers[#numbers + 1] = list[i] end end
+      for i, number in ipairs(numbers) do numbers[i] = ("%.13g"):format(number) end
+      print("|" .. table.concat(numbers, " ") .. "|")
+    end
+    local function blocks()
+      local function block(name, from, to, n, E)
+        return dotyk.body{ name = name, material = material(E), refine = 1, mesh = dotyk.mesh.box{ from = from, to = to, cells = {n, n, 4} } }
+      end
+      local lower, upper = block("lower", {0,0,0}, {1,1,0.5}, 6, 1000), block("upper", {0,0,0.5}, {1,1,1}, 8, 500)
+      lower:part"bottom":fix()
+      upper:part"top":displace{ x = 0.001, y = 0, z = -0.01 }
+      local scene = dotyk.scene{ lower, upper }
+      local c = scene:contact{ upper:part"bottom", lower:part"top", friction = dotyk.friction.coulomb(0.3) }
+      say(dotyk.solver.multigrid{}:solve(scene), c, lower, lower:part"bottom", 1, 0.5, 0.25)
+    end
+    local function plane()
+      local soft = dotyk.body{ name = "soft", material = dotyk.material{ E = function(x) return x < 0.5 and 1000 or 2000 end, nu = 0.3 }, refine = 3,
+                               mesh = dotyk.mesh.rectangle{ from = {0,0}, to = {1,1}, cells = {6,6}, element = "P2" } }
+      soft:part"left":displace{ x = 0, y = 0 }
+      soft:part"right":slide()
+      soft:part"top":load{ 0, -20 }
+      local scene = dotyk.scene{ soft }
+      local c = scene:contact{ soft:part"bottom", rigid = dotyk.rigid.gap{ normal = {0,-1}, gap = function(x) return 0.02 * x end } }
+      say(dotyk.solver.multigrid{}:solve(scene), c, soft, soft:part"left", 0.5, 1)
+    end
+    local function cube()
+      local b = dotyk.body{ material = material(1000), refine = 2, mesh = dotyk.mesh.box{ from = {0,0,0}, to = {1,1,1}, cells = {4,4,4}, element = "Q1" } }
+      b:part"bottom":fix()
+      b:part"left":support{ normal = dotyk.law.elastic(100) }
+      local scene = dotyk.scene{ b }
+      local c = scene:contact{ b:part"top", rigid = dotyk.rigid.gap{ normal = {0,0,1}, gap = function(x, y) return ((x - 0.5)^2 + (y - 0.5)^2) / 2 - 0.05 end }, interference = true }
+      say(dotyk.solver.multigrid{}:solve(scene), c, b, b:part"bottom", 1, 0.5, 0.75)
+    end
+    blocks() plane() cube() ]]
+  local function numbers(text)
+    local all <const> = {}
+    for line in text:gmatch "|(.-)|" do
+      all[#all + 1] = {}
+      for number in line:gmatch "%S+" do table.insert(all[#all], tonumber(number)) end
+    end
+    return all
+  end
+  local alone <const> = numbers(told("dotyk.ranks(1)" .. refined))
+  check.that(#alone == 3, "three scenes on one rank")
+  for _, ranks in ipairs{ 2, 3, 5 } do
+    local text <const> = told("dotyk.ranks(" .. ranks .. ")" .. refined)
+    local several <const> = numbers(text)
+    check.that(#several == 3, text)
+    for k, own in ipairs(alone) do
+      local greatest = 0  -- of displacements and forces, whose components may vanish
+      for i = 6, #own do greatest = math.max(greatest, math.abs(own[i])) end
+      for i, number in ipairs(own) do
+        check.near(several[k][i], number, 1e-9 * (i <= 5 and math.abs(number) or greatest))
+      end
+    end
+  end
+
+  local body <const> = [[dotyk.ranks(2)
+    local function body(more)
+      local all = { name = "b", material = dotyk.material{ E = 1000, nu = 0.3 }, refine = 2, mesh = dotyk.mesh.box{ from = {0,0,0}, to = {1,1,1}, cells = {4,4,4} } }
+      for k, v in pairs(more or {}) do all[k] = v end
+      return dotyk.body(all)
+    end
+    local function held(more) local b = body(more) b:part"bottom":fix() b:part"top":load{0, 0, -1} return b end
+    local function solved(...) return dotyk.solver.multigrid{}:solve(dotyk.scene{ ... }) end
+    ]]
+  local function refused(code, words) says(told(body .. code), words, 1) end
+  refused("body{ force = {0, 0, -1} }", "a force per volume needs them")
+  refused("body():part'left':spring{ x = 1 }", "needs them")
+  refused("dotyk.solver.pdas{}:solve(dotyk.scene{ held() })", "dotyk.solver.multigrid{} works there")
+  refused("dotyk.solver.multigrid{ levels = 'aggregates' }:solve(dotyk.scene{ held() })", "dotyk.solver.multigrid{} works there")
+  refused("solved(body())", "'b' is free to move")
+  refused("solved(held(), held{ name = 'c', refine = 1 })", "on several ranks all bodies of a scene have the same")
+  refused("solved(held()):error_estimate()", "an error estimate needs them")
+  refused("local b = held() solved(b):displacement(b, 0.5, 0.5, 0.5)", "lies in no cell at the boundary of 'b'")
+  says(told(body .. "local b = held() print(b, b.node_count, b.cell_count) print(dotyk.scene{ b }:plan()) print(dotyk.solve(dotyk.scene{ b }))"), "4913 nodes", 0)
 end

@@ -59,7 +59,9 @@ for _, case in ipairs{
   { "blocks, mortar", S.multigrid{}, scenes.blocks(24) }, { "blocks, mortar, Coulomb", S.multigrid{}, scenes.blocks(32, { friction = 0.3, contrast = 10 }) },
   { "blocks, aggregates", S.multigrid{ levels = "aggregates" }, scenes.blocks(24) }, { "blocks, glued", S.multigrid{}, scenes.blocks(24, { linear = true }) },
   { "plane, Coulomb", S.multigrid{}, strip(96) }, { "graded, Coulomb", S.multigrid{}, graded("P1", dotyk.friction.coulomb(0.2)) },
-  { "graded, order 2", S.multigrid{}, graded("P2") }, { "floor, Coulomb", S.multigrid{}, floor(24) } } do
+  { "graded, order 2", S.multigrid{}, graded("P2") }, { "floor, Coulomb", S.multigrid{}, floor(24) },
+  { "refined cube", S.multigrid{}, scenes.cube(32, { refine = 2 }) }, { "refined cube, Coulomb", S.multigrid{}, scenes.cube(24, { refine = 1, friction = 0.3, element = "Q1" }) },
+  { "refined blocks, Coulomb", S.multigrid{}, scenes.blocks(24, { refine = 1, friction = 0.3, contrast = 10 }) } } do
   local s = case[2]:solve(case[3])
   assert(s.converged, s.reason)
   print(("%s|%.17g|%d|%d|%d"):format(case[1], s.energy, s.rows, s.iterations, s.multigrid.cg))
@@ -83,7 +85,7 @@ for _, ranks in ipairs{ 1, 2, 3, 4, 8 } do
     print(("%-26s %5d  %-20.15g %5d  %12s  %10d"):format(name, ranks, energy, rows, steps, cg))
   end
   pipe:close()
-  assert(count == 12, "a run has ended early")
+  assert(count == 15, "a run has ended early")
 end
 print(("energies differ by %.0e of their size at most"):format(worst))
 

@@ -7,6 +7,7 @@
 #include "base/stopwatch.hpp"
 #include "base/text.hpp"
 #include "scene/result/solution.hpp"
+#include "solver/active/pdas.hpp"
 #include "solver/core/default_method.hpp"
 
 namespace dotyk::scene {
@@ -126,12 +127,18 @@ std::string cascade_note(const Model& model, const algebra::Vector& u, int round
                           : "one local minimum of the energy, perhaps of several");
 }
 
+/// Bodies that ranks refine are solved where they are, though no method was named.
+const solver::Method& method_for(const Scene& scene, const solver::Method& named) {
+  static const solver::Method multigrid{solver::Multigrid()};
+  return !named && std::ranges::any_of(scene.bodies, [](const auto& body) { return body->unrefined != nullptr; }) ? multigrid : named;
+}
+
 /// Solves a scene step by step.
 class History {
  public:
   History(std::shared_ptr<const Scene> scene, const solver::Method& method, const Start& start, Monitor& monitor)
       : scene_(std::make_shared<const Scene>(*scene)),  // on_iteration may run a script that adds to the scene
-        method_(method), start_(start), monitor_(monitor), condenser_(start.condenser), last_(start.after) {
+        method_(method_for(*scene_, method)), start_(start), monitor_(monitor), condenser_(start.condenser), last_(start.after) {
     if (last_) loading_ = last_->loading();
     for (const auto& body : scene_->bodies) bodies_.push_back(*body);
     if (last_) take_broken(last_->model().bodies, bodies_);
