@@ -74,44 +74,72 @@ struct Counts {
   }
 };
 
-/// `second`: how many nodes the mesh has as one of order 2.
-Counts counts(const mesh::Mesh& mesh, int second, std::size_t boundary) {
+/// Edges between corners.
+double edges(const mesh::Mesh& mesh) {
+  const mesh::ElementTopology& t = mesh::topology(mesh::second_order(mesh.element));
+  const Buckets ends(mesh.node_count(), [&](auto&& put) {
+    for (int c = 0; c < mesh.cell_count(); ++c)
+      for (const std::vector<int>& corners : t.between)
+        if (corners.size() == 2) {
+          const auto [low, high] = std::minmax(mesh.cell(c)[corners[0]], mesh.cell(c)[corners[1]]);
+          put(low, high);
+        }
+  });
+  double count = 0;
+  std::vector<int> of_node;
+  for (int i = 0; i < ends.count(); ++i) {
+    of_node.assign(ends[i].begin(), ends[i].end());
+    std::ranges::sort(of_node);
+    count += static_cast<double>(std::ranges::unique(of_node).begin() - of_node.begin());
+  }
+  return count;
+}
+
+Counts counts(const mesh::Mesh& mesh, std::size_t boundary) {
   const mesh::ElementTopology& t = mesh.topology();
-  Counts n{0, 0, 0, static_cast<double>(mesh.cell_count()), t.dimension == 2, t.corners == t.dimension + 1};
+  Counts n{0, edges(mesh), 0, static_cast<double>(mesh.cell_count()), t.dimension == 2, t.corners == t.dimension + 1};
   std::vector<char> corner(static_cast<std::size_t>(mesh.node_count()), 0);
   for (int c = 0; c < mesh.cell_count(); ++c)
     for (int k = 0; k < t.corners; ++k) corner[mesh.cell(c)[k]] = 1;
   n.corners = static_cast<double>(std::ranges::count(corner, 1));
   if (!n.plane) n.faces = (t.facets * n.cells + static_cast<double>(boundary)) / 2;
-  n.edges = second - n.corners - (n.simplex ? 0 : n.faces + n.cells);
   return n;
 }
 
-/// The cells at flagged nodes, and the nodes of these cells flagged as well.
-std::vector<int> cells_at(const mesh::Mesh& mesh, std::vector<char>& flagged) {
+/// Flags the nodes of cells that have a flagged node.
+void widen(const mesh::Mesh& mesh, std::vector<char>& flagged) {
   const int per_cell = mesh::nodes_of(mesh.element);
-  std::vector<int> cells;
+  const std::vector<char> before = flagged;
   for (int c = 0; c < mesh.cell_count(); ++c)
-    if (std::any_of(mesh.cell(c), mesh.cell(c) + per_cell, [&](int node) { return flagged[node] != 0; })) cells.push_back(c);
-  for (const int c : cells)
-    for (int k = 0; k < per_cell; ++k) flagged[mesh.cell(c)[k]] = 1;
-  return cells;
+    if (std::any_of(mesh.cell(c), mesh.cell(c) + per_cell, [&](int node) { return before[node] != 0; }))
+      for (int k = 0; k < per_cell; ++k) flagged[mesh.cell(c)[k]] = 1;
 }
 
-/// These cells with their facets of parts, and the coarser mesh of `from`.
-mesh::Submesh some_cells(const mesh::Mesh& from, std::vector<int> cells) {
-  std::vector<int> place(static_cast<std::size_t>(from.cell_count()), -1);
-  for (std::size_t k = 0; k < cells.size(); ++k) place[cells[k]] = static_cast<int>(k);
-  mesh::Submesh some = mesh::submesh(from, std::move(cells));
+/// Two layers of cells at these facets, with all facets of parts that they have.
+mesh::Submesh two_layers(const mesh::Mesh& from, const std::vector<mesh::Facet>& at) {
+  const int per_cell = mesh::nodes_of(from.element);
+  std::vector<char> near(static_cast<std::size_t>(from.node_count()), 0);
+  for (const mesh::Facet f : at)
+    for (int a = 0; a < from.topology().nodes_per_facet; ++a) near[from.facet_node(f, a)] = 1;
+  widen(from, near);
+  std::vector<int> cells, place(static_cast<std::size_t>(from.cell_count()), -1);
+  for (int c = 0; c < from.cell_count(); ++c)
+    if (std::any_of(from.cell(c), from.cell(c) + per_cell, [&](int node) { return near[node] != 0; })) place[c] = static_cast<int>(cells.size()), cells.push_back(c);
+  mesh::Submesh layers = mesh::submesh(from, std::move(cells));
   for (const auto& [name, facets] : from.parts)
     for (const mesh::Facet f : facets)
-      if (place[f.cell] >= 0) some.mesh.parts[name].push_back({place[f.cell], f.local});
+      if (place[f.cell] >= 0) layers.mesh.parts[name].push_back({place[f.cell], f.local});
+  return layers;
+}
+
+/// Node i, of a mesh that refines some cells of another, as the mean of that mesh's nodes. `of_cells` has them by the nodes of these cells, `node` of each of these the other mesh's.
+std::shared_ptr<const mesh::Coarser> coarser_of(const mesh::Submesh& layers, const mesh::Coarser& of_cells, const std::vector<int>& node, int node_count,
+                                                std::shared_ptr<const mesh::Coarser> next) {
   const auto means = [&](auto&& put) {
-    for (std::size_t i = 0; i < some.node.size(); ++i)
-      for (const int p : from.coarser->means[some.node[i]]) put(static_cast<int>(i), p);
+    for (std::size_t i = 0; i < layers.node.size(); ++i)
+      for (const int p : of_cells.means[layers.node[i]]) put(static_cast<int>(i), node[p]);
   };
-  some.mesh.coarser = std::make_shared<mesh::Coarser>(mesh::Coarser{Buckets(static_cast<int>(some.node.size()), means), from.coarser->node_count, from.coarser->next});
-  return some;
+  return std::make_shared<mesh::Coarser>(mesh::Coarser{Buckets(static_cast<int>(layers.node.size()), means), node_count, std::move(next)});
 }
 
 }  // namespace
@@ -121,37 +149,42 @@ mesh::Mesh refined_near_boundary(const mesh::Mesh& mesh, int times, std::vector<
   auto whole = std::make_shared<mesh::Whole>();
   whole->nodes = mesh::coarser_nodes(mesh);
   whole->nodes.insert(whole->nodes.begin(), mesh.node_count());
-  mesh::Mesh now = mesh;
-  now.parts[boundary] = mesh::boundary(mesh);
-  parent.resize(static_cast<std::size_t>(mesh.cell_count()));
-  std::iota(parent.begin(), parent.end(), 0);
-  Counts count;
+  const std::vector<mesh::Facet> outside = mesh::boundary(mesh);
+  Counts count = counts(mesh, outside.size());
+
+  mesh::Mesh with_boundary = mesh;
+  with_boundary.parts[boundary] = outside;
+  mesh::Submesh now = two_layers(with_boundary, outside);  // all that lies near the boundary on finer meshes is in these
+  with_boundary = {};
+  parent = now.cell;
+  std::vector<int> node = std::move(now.node);
+  int node_count = mesh.node_count();
+  std::shared_ptr<const mesh::Coarser> coarser = mesh.coarser;
   for (int k = 0; k < times; ++k) {
-    mesh::Mesh finer = refined(now, watch);
-    if (k == 0) count = counts(mesh, mesh.topology().order == 2 ? mesh.node_count() : finer.node_count(), now.parts[boundary].size());
     count = count.next();
     const double nodes = mesh.topology().order == 2 ? count.next_corners() : count.corners;
     if (nodes * mesh.dimension() > std::numeric_limits<int>::max())
       throw InputError(text("refined ", times, times == 1 ? " time" : " times", " the mesh would have some ", nodes, " nodes; at most ",
                             std::numeric_limits<int>::max() / mesh.dimension(), " can be numbered"));
     whole->nodes.insert(whole->nodes.begin(), static_cast<int>(nodes));
-    std::vector<char> near(static_cast<std::size_t>(finer.node_count()), 0);
-    for (const mesh::Facet f : finer.parts[boundary])
-      for (int a = 0; a < finer.topology().nodes_per_facet; ++a) near[finer.facet_node(f, a)] = 1;
-    cells_at(finer, near);
-    mesh::Submesh layers = some_cells(finer, cells_at(finer, near));
-    const int each = finer.cell_count() / now.cell_count();
+    mesh::Mesh finer = refined(now.mesh, watch);
+    mesh::Submesh layers = two_layers(finer, finer.parts[boundary]);
+    layers.mesh.coarser = coarser_of(layers, *finer.coarser, node, node_count, coarser);
+    const int each = finer.cell_count() / now.mesh.cell_count();
     std::vector<int> of_layers;
     for (const int c : layers.cell) of_layers.push_back(parent[c / each]);
-    parent.swap(of_layers), now = std::move(layers.mesh);
+    parent.swap(of_layers), now = std::move(layers);
+    node_count = now.mesh.node_count(), coarser = now.mesh.coarser;
+    node.resize(static_cast<std::size_t>(node_count));
+    std::iota(node.begin(), node.end(), 0);
   }
   whole->cells = count.cells;
-  whole->boundary = std::move(now.parts[boundary]);
+  whole->boundary = std::move(now.mesh.parts[boundary]);
   std::ranges::sort(whole->boundary);
-  now.parts.erase(boundary);
-  now.whole = std::move(whole);
-  now.generated = {now.coordinates.size(), now.cells.size()};
-  return now;
+  now.mesh.parts.erase(boundary);
+  now.mesh.whole = std::move(whole);
+  now.mesh.generated = {now.mesh.coordinates.size(), now.mesh.cells.size()};
+  return std::move(now.mesh);
 }
 
 }  // namespace dotyk::elasticity

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <numeric>
 #include <utility>
 
 #include "algebra/congruent.hpp"
@@ -124,6 +125,19 @@ algebra::StoredMatrix assembled(std::vector<Cells> bodies) {
   return joined;
 }
 
+/// `order`: of each new node the old one.
+void renumber(mesh::Mesh& mesh, const std::vector<int>& order) {
+  const auto dim = static_cast<std::size_t>(mesh.dimension());
+  std::vector<int> number(order.size());
+  std::vector<double> coordinates(mesh.coordinates.size());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    number[order[i]] = static_cast<int>(i);
+    std::copy_n(mesh.node(order[i]), dim, coordinates.begin() + static_cast<std::ptrdiff_t>(i * dim));
+  }
+  for (int& node : mesh.cells) node = number[node];
+  mesh.coordinates.swap(coordinates);
+}
+
 class RefinableShare final : public algebra::Refinable {
  public:
   explicit RefinableShare(std::vector<Cells> bodies) : bodies_(std::move(bodies)) {}
@@ -154,7 +168,7 @@ class RefinableShare final : public algebra::Refinable {
     return means;
   }
 
-  std::vector<int> keep(const std::vector<char>& flagged) override {
+  std::vector<int> keep(const std::vector<char>& flagged, const std::vector<double>& place) override {
     std::vector<int> before;
     int first = 0;
     for (Cells& body : bodies_) {
@@ -164,7 +178,11 @@ class RefinableShare final : public algebra::Refinable {
         if (std::any_of(body.mesh.cell(c), body.mesh.cell(c) + per_cell, [&](int node) { return flagged[static_cast<std::size_t>(first) + node] != 0; })) cells.push_back(c);
       mesh::Submesh left = mesh::submesh(body.mesh, std::move(cells));
       body.mesh = std::move(left.mesh), body.material = body.material.of(left.cell);
-      for (const int node : left.node) before.push_back(first + node);
+      std::vector<int> order(left.node.size());
+      std::iota(order.begin(), order.end(), 0);
+      std::ranges::stable_sort(order, {}, [&](int node) { return place[static_cast<std::size_t>(first) + left.node[node]]; });
+      renumber(body.mesh, order);
+      for (const int node : order) before.push_back(first + left.node[node]);
       first += nodes;
     }
     return before;

@@ -57,60 +57,60 @@ class Questions {
 
 }  // namespace
 
-RefinedShare::RefinedShare(const Ranks& ranks, std::unique_ptr<algebra::Refinable> cells, std::vector<int> number, std::vector<int> first)
-    : ranks_(ranks), cells_(std::move(cells)), dimension_(cells_->dimension()), number_(std::move(number)), first_{std::move(first)} {}
+RefinedShare::RefinedShare(const Ranks& ranks, std::unique_ptr<algebra::Refinable> cells, std::vector<int> number, std::vector<int> first, const std::vector<int>& place)
+    : ranks_(ranks), cells_(std::move(cells)), dimension_(cells_->dimension()), number_(std::move(number)), place_(place.begin(), place.end()), first_{std::move(first)} {}
 
 std::vector<int> RefinedShare::refine(const Rows& asked) {
   Rows means;
+  std::vector<double> place;
   {
     const Buckets here = cells_->refine();
     std::vector<int> row;
     for (int i = 0; i < here.count(); ++i) {
-      for (const int p : here[i]) row.push_back(number_[p]);
-      means.append_columns(row);
+      double sum = 0;
+      for (const int p : here[i]) row.push_back(number_[p]), sum += place_[p];
+      means.append_columns(row), place.push_back(sum / static_cast<double>(here[i].size()));
     }
   }
   const std::vector<int>& first = first_.front();
   const int begin = first[ranks_.own()], end = first[ranks_.own() + 1];
-  const auto nodes = means.starts.size() - 1;
   const auto decides = [greatest = first_.size() % 2 == 0](std::span<const int> of_node) { return greatest ? of_node.back() : of_node.front(); };
   const auto rank_of = [&](std::span<const int> of_node) { return static_cast<std::size_t>(std::ranges::upper_bound(first, decides(of_node)) - first.begin()) - 1; };
-  std::vector<char> own(nodes);
-  for (std::size_t i = 0; i < nodes; ++i) own[i] = decides(columns_of(means, i)) >= begin && decides(columns_of(means, i)) < end;
+  std::vector<char> own(place.size());
+  for (std::size_t i = 0; i < own.size(); ++i) own[i] = decides(columns_of(means, i)) >= begin && decides(columns_of(means, i)) < end;
   std::vector<int> finer = ranks_.gather(static_cast<int>(std::ranges::count(own, 1)));
   finer.insert(finer.begin(), 0);
   std::partial_sum(finer.begin(), finer.end(), finer.begin());
 
-  std::vector<int> number(nodes, -1);
+  const std::vector<int> before = cells_->keep(own, place);
+  std::vector<int> numbers(before.size() + asked.starts.size() - 1), number(own.size(), -1);
   Rows own_means;
-  for (std::size_t i = 0, next = finer[ranks_.own()]; i < nodes; ++i) {
-    if (!own[i]) continue;
-    number[i] = static_cast<int>(next++);
-    const auto of_node = columns_of(means, i);
-    own_means.columns.insert(own_means.columns.end(), of_node.begin(), of_node.end());
-    own_means.starts.push_back(static_cast<int>(own_means.columns.size()));
-  }
-  const Buckets decided(end - begin, [&](auto&& put) {
-    for (std::size_t i = 0; i < nodes; ++i)
-      if (own[i]) put(decides(columns_of(means, i)) - begin, static_cast<int>(i));
-  });
-
-  const std::vector<int> before = cells_->keep(own);
-  std::vector<int> numbers(before.size() + asked.starts.size() - 1);
   Questions questions(ranks_);
-  for (std::size_t k = 0; k < before.size(); ++k) {
+  place_.clear();
+  for (std::size_t k = 0, next = finer[ranks_.own()]; k < before.size(); ++k) {
     const auto i = static_cast<std::size_t>(before[k]);
-    if (own[i]) numbers[k] = number[i];
-    else questions.ask(rank_of(columns_of(means, i)), columns_of(means, i), k);
+    const auto of_node = columns_of(means, i);
+    place_.push_back(place[i]);
+    if (own[i]) {
+      numbers[k] = number[i] = static_cast<int>(next++);
+      own_means.columns.insert(own_means.columns.end(), of_node.begin(), of_node.end());
+      own_means.starts.push_back(static_cast<int>(own_means.columns.size()));
+    } else {
+      questions.ask(rank_of(of_node), of_node, k);
+    }
   }
   for (std::size_t a = 0; a + 1 < asked.starts.size(); ++a) questions.ask(rank_of(columns_of(asked, a)), columns_of(asked, a), before.size() + a);
+  const Buckets decided(end - begin, [&](auto&& put) {
+    for (std::size_t i = 0; i < own.size(); ++i)
+      if (own[i]) put(decides(columns_of(means, i)) - begin, static_cast<int>(i));
+  });
   questions.answer(
       [&](std::span<const int> of) {
         for (const int i : decided[decides(of) - begin])
           if (std::ranges::equal(columns_of(means, static_cast<std::size_t>(i)), of)) return number[i];
         throw std::logic_error("refined share: a node that its rank has not");
       },
-      [&](int place, int is) { numbers[place] = is; });
+      [&](int at, int is) { numbers[at] = is; });
   std::vector<int> of_asked(numbers.begin() + std::ssize(before), numbers.end());
   numbers.resize(before.size());
   number_ = std::move(numbers);

@@ -21,8 +21,9 @@ PrescribedBits prescribed_bits(const std::vector<int>& rows, int dimension);
 /// others.
 class RefinedShare {
  public:
-  /// `number`: of each node of the cells; `first`: of each rank its first node, and the number of all.
-  RefinedShare(const Ranks& ranks, std::unique_ptr<algebra::Refinable> cells, std::vector<int> number, std::vector<int> first);
+  /// `number`: of each node of the cells; `first`: of each rank its first node, and the number of all; `place`: of each node of the cells one in a good order of all
+  /// nodes for sweeps, as the coarse mesh has them.
+  RefinedShare(const Ranks& ranks, std::unique_ptr<algebra::Refinable> cells, std::vector<int> number, std::vector<int> first, const std::vector<int>& place);
 
   /// Refines once, and keeps the cells about own nodes. `asked`: of any nodes of the finer mesh, the numbers of the nodes whose mean each is. Returns the numbers
   /// of these nodes. Collective.
@@ -40,6 +41,8 @@ class RefinedShare {
   std::unique_ptr<algebra::Refinable> cells_;
   const int dimension_;
   std::vector<int> number_;               ///< of each node of the cells
+  std::vector<double> place_;             ///< the same; that of a node is the mean of those between which it lies: so neighbours of each node are swept in the
+                                          ///< order of the coarse nodes
   std::vector<std::vector<int>> first_;
   std::vector<Rows> means_;               ///< by level, of own nodes: numbers of the level after it
 };
