@@ -14,7 +14,7 @@ namespace {
 
 using problem::Problem;
 
-/// Smaller problems are solved by factors.
+/// Smaller problems are solved by factors, but not where slices hide unknowns.
 constexpr int kSmall = 5000;
 /// Of a coarser solution: its contact forces are off by about as much because the mesh is coarse.
 constexpr double kTolerance = 0.1;
@@ -52,7 +52,8 @@ CoarseStart coarse_start(const Problem& problem, const Pdas& settings, Monitor& 
     begun.from = before.state, begun.stiffness = before.stiffness, begun.nested = false, begun.rough = true;
     begun.tol = std::max(begun.tol, kTolerance);
     meshes = before.meshes + 1;
-    result = part.all_unknowns() > kSmall ? solve(part, begun, inner) : solve(part, {}, {}, inner);
+    const bool small = part.all_unknowns() <= kSmall && part.all_unknowns() == part.unknowns();
+    result = small ? solve(part, {}, {}, inner) : solve(part, begun, inner);
   } catch (const Interrupted&) {
     throw;
   } catch (const SlowIterations&) {
