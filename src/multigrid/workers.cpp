@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <csignal>
+#include <cstdlib>
 #include <map>
 #include <memory>
+#include <new>
 
 #include "base/text.hpp"
 #include "multigrid/cycle/cycle.hpp"
@@ -59,12 +61,20 @@ int& living() {
   return count;
 }
 
+/// Throws where there is no memory for what MPI keeps of messages that wait: MPI would ask again for ever.
+void require_room_for_messages() {
+  constexpr std::size_t kRoom = 8'000'000;  // bytes
+  void* volatile room = std::malloc(kRoom);
+  if (!room) throw std::bad_alloc();
+  std::free(room);
+}
+
 /// The next task and the number of what it is for. MPI would keep a processor busy with waiting.
 std::vector<int> next_task() {
   constexpr int kShortest = 50, kLongest = 2000;  // microseconds
   int there = 0;
   for (int wait = kShortest; MPI_Iprobe(0, MPI_ANY_TAG, world().comm(), &there, MPI_STATUS_IGNORE), !there; wait = std::min(kLongest, wait + wait / 50 + 1))
-    usleep(static_cast<useconds_t>(wait));
+    require_room_for_messages(), usleep(static_cast<useconds_t>(wait));
   std::vector<int> task;
   world().receive(0, task);
   return task;

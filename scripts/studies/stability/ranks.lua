@@ -94,7 +94,7 @@ local many <const> = script [[
 local file = arg[2]
 io.stdout:setvbuf "line"
 for n = 10, 100, 2 do
-  local s = dotyk.solver.multigrid{}:solve(scenes.cube(n, { friction = 0.3 }))
+  local s = dotyk.solver.multigrid{}:solve(scenes.cube(n, { friction = 0.3, refine = n % 4 == 0 and 1 or 0 })) -- every second one refined by the ranks
   print(("answer %d %.12g"):format(n, s.energy))
   s:write(file)
 end
@@ -142,7 +142,7 @@ for f = 1, faults do
   for line in io.lines(out) do
     local n, energy = line:match "^answer (%d+) (.*)"
     if n then
-      right[n] = right[n] or dotyk.solver.multigrid{}:solve(scenes.cube(tonumber(n), { friction = 0.3 })).energy
+      right[n] = right[n] or dotyk.solver.multigrid{}:solve(scenes.cube(tonumber(n), { friction = 0.3, refine = n % 4 == 0 and 1 or 0 })).energy
       if math.abs(energy / right[n] - 1) > 1e-9 then wrong = wrong + 1 end
     end
     if not n and line:find "dotyk:" then words[kind[1]] = line:sub(1, 100) end
