@@ -119,6 +119,8 @@ do
   print(("coarsest level    %8.0f unknowns, on one rank; levels with less than a node a rank: %d"):format(all / 8^levels, sparse))
   print(("iterations        %8d in %d steps, if they stay as here: %.0f s"):format(its, s.multigrid.newton, its * (own * iteration + network)))
   print(("contact           %8.0f of %d ranks have nodes of the top; their share of rows decides about the other ranks' waiting"):format(ranks^(2 / 3), ranks))
-  print("What breaks first: rank 0, which has the mesh and the numbers of all unknowns, some 90 bytes an unknown more than the others (measured on two ranks at 9.9e6), 190 "
-    .. "with two bodies that do not match (at 9.6e6): 90 and 190 GB. Then latency on the coarse levels, where ranks have less than a node")
+  local layers <const> = 3 * 6 / (all / 3)^(1 / 3) -- of nodes at the boundary, a part of all nodes
+  print(("What breaks first: without refine rank 0, which has the mesh and the numbers of all unknowns, some 90 bytes an unknown more than the others (measured on two ranks "
+    .. "at 9.9e6), 190 with two bodies that do not match (at 9.6e6): 90 and 190 GB. With refine it has three layers of nodes at the boundary, %.1f %% of all, at some 180 bytes an "
+    .. "unknown (21 of all at 9.9e6): %.1f GB. Then latency on the coarse levels, where ranks have less than a node"):format(100 * layers, layers * all * 180 / 1e9))
 end

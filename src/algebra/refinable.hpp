@@ -12,7 +12,6 @@ namespace dotyk::algebra {
 class Refinable {
  public:
   virtual ~Refinable() = default;
-  virtual int dimension() const = 0;  ///< components of a node
   /// Refines all cells once. Node → the nodes before whose mean it is.
   virtual Buckets refine() = 0;
   /// Keeps the cells that have a flagged node. The nodes left are numbered anew, those of a body by ascending `place`. Returns what number each had before.

@@ -33,7 +33,8 @@ class SlicedMatrix {
 
   const Vector& diagonal() const { return diagonal_; }
   int most_entries() const { return most_entries_; }  ///< at least as many as any row has
-  bool hides() const { return hides_; }               ///< are there other rows and columns, whose unknowns are told to nobody? Vectors have them, with zeros put in
+  /// Are there other rows and columns, of unknowns that have no number here? Vectors have numbers at them, zeros where Vectors::put() fills these.
+  bool hides() const { return hides_; }
 
  protected:
   Vector diagonal_;
@@ -54,7 +55,7 @@ class SymmetricMatrix {
     static const SparseMatrix none;
     if (!content_) return none;
     if (slices()) std::call_once(content_->once, [&] {
-      if (slices()->hides()) throw InputError("the stiffness of bodies with refine is with the ranks: only dotyk.solver.multigrid{} works there");
+      if (slices()->hides()) throw InputError("the stiffness cannot be put together: ranks have refined the bodies, and a part of it is known to them alone");
       std::vector<char> all(static_cast<std::size_t>(rows()), 1);
       StoredMatrix whole = slices()->near(all);
       content_->lower.swap(whole);

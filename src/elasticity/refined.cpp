@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "base/error.hpp"
+#include "base/memory.hpp"
 #include "base/text.hpp"
 #include "elasticity/kernel.hpp"
 #include "mesh/second_order.hpp"
@@ -53,6 +54,11 @@ mesh::Mesh refined(const mesh::Mesh& mesh, Monitor* watch) {
     if constexpr (E::order == 2) place_between<E>(mesh, pieces);
   });
   return pieces;
+}
+
+double refining_bytes(const mesh::Mesh& mesh) {
+  const double pieces = mesh.dimension() == 2 ? 4 : 8;
+  return 2 * pieces * (4.0 * static_cast<double>(mesh.cells.size()) + 8.0 * static_cast<double>(mesh.coordinates.size()));
 }
 
 namespace {
@@ -167,6 +173,7 @@ mesh::Mesh refined_near_boundary(const mesh::Mesh& mesh, int times, std::vector<
       throw InputError(text("refined ", times, times == 1 ? " time" : " times", " the mesh would have some ", nodes, " nodes; at most ",
                             std::numeric_limits<int>::max() / mesh.dimension(), " can be numbered"));
     whole->nodes.insert(whole->nodes.begin(), static_cast<int>(nodes));
+    require_memory(refining_bytes(now.mesh), "the boundary of the refined mesh");
     mesh::Mesh finer = refined(now.mesh, watch);
     mesh::Submesh layers = two_layers(finer, finer.parts[boundary]);
     layers.mesh.coarser = coarser_of(layers, *finer.coarser, node, node_count, coarser);
@@ -178,7 +185,7 @@ mesh::Mesh refined_near_boundary(const mesh::Mesh& mesh, int times, std::vector<
     node.resize(static_cast<std::size_t>(node_count));
     std::iota(node.begin(), node.end(), 0);
   }
-  whole->cells = count.cells;
+  whole->cells = static_cast<std::int64_t>(count.cells);
   whole->boundary = std::move(now.mesh.parts[boundary]);
   std::ranges::sort(whole->boundary);
   now.mesh.parts.erase(boundary);

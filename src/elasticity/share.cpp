@@ -115,6 +115,7 @@ algebra::StoredMatrix assembled(std::vector<Cells> bodies) {
     body = {};
   }
   if (blocks.size() == 1) return std::move(blocks[0]);
+  if (blocks.empty()) return {};
   std::vector<const algebra::SparseMatrix*> all;
   double entries = 0;
   for (const auto& block : blocks) all.push_back(&block), entries += static_cast<double>(block.nonZeros());
@@ -142,13 +143,12 @@ class RefinableShare final : public algebra::Refinable {
  public:
   explicit RefinableShare(std::vector<Cells> bodies) : bodies_(std::move(bodies)) {}
 
-  int dimension() const override { return bodies_.front().mesh.dimension(); }
-
   Buckets refine() override {
     std::vector<int> coarse(bodies_.size());
     int nodes = 0;
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
       Cells& body = bodies_[b];
+      require_memory(refining_bytes(body.mesh), "a share of the refined mesh");
       mesh::Mesh finer = refined(body.mesh);
       if (body.material.varies()) {
         std::vector<int> parent(static_cast<std::size_t>(finer.cell_count()));

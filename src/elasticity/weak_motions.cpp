@@ -289,7 +289,7 @@ ByRows lost_in_rounding(const Motions& motions, const mesh::Mesh& mesh, const Nu
 }  // namespace
 
 WeakMotions weak_motions(const mesh::Mesh& mesh, const MaterialField& material, const std::vector<FacetSpring>& springs, const Numbering& numbering,
-                         const algebra::SymmetricMatrix& K, const DenseMatrix& kernel) {
+                         const std::function<algebra::SymmetricMatrix()>& stiffness, const DenseMatrix& kernel) {
   const int all = mesh.dimension() == 2 ? 3 : 6;
   if (numbering.count() == 0 || kernel.cols() == all) return {};
   const RigidFrame frame(mesh);
@@ -306,6 +306,7 @@ WeakMotions weak_motions(const mesh::Mesh& mesh, const MaterialField& material, 
   if (!std::isfinite(own) || !(trial.values[0] < kSuspicious * own)) return {};
   const Motions motions(mesh, numbering, frame, volumes.lumped);
   const ByRows Q = motions.without(kernel, combined(motions.rigid(), T));
+  const algebra::SymmetricMatrix K = stiffness();
   const ByRows lost = lost_in_rounding(motions, mesh, numbering, K, combined(Q, trial.vectors));
   if (lost.cols() > 0) return {0, motions.named(lost)};
   return by_response(motions, Q, numbering, K, kernel);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "algebra/symmetric_matrix.hpp"
@@ -29,8 +30,8 @@ struct WeakMotions {
 ///
 /// Cost: two passes over the cells compare the least Rayleigh quotient of rigid motions, an upper bound of the supports' stiffness, with that of a dilatation.
 /// Only where their ratio is below 1e-3 there follow one factorisation of K and twice as many solutions as motions are held.
-/// `K`: on the unknowns; `kernel`: its exact rigid modes, unknowns × modes.
+/// `stiffness`: makes K, on the unknowns, where it is needed; `kernel`: its exact rigid modes, unknowns × modes.
 WeakMotions weak_motions(const mesh::Mesh& mesh, const MaterialField& material, const std::vector<FacetSpring>& springs, const Numbering& numbering,
-                         const algebra::SymmetricMatrix& K, const algebra::DenseMatrix& kernel);
+                         const std::function<algebra::SymmetricMatrix()>& stiffness, const algebra::DenseMatrix& kernel);
 
 }  // namespace dotyk::elasticity

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "mesh/facet_table.hpp"
 
 namespace dotyk::mesh {
@@ -22,6 +24,16 @@ std::vector<Facet> boundary(const Mesh& mesh) {
   for (std::size_t k = 0; k < neighbour.size(); ++k)
     if (neighbour[k] < 0) result.push_back({static_cast<int>(k) / facets, static_cast<int>(k) % facets});
   return result;
+}
+
+std::vector<char> surrounded_cells(const Mesh& mesh) {
+  if (!mesh.whole) return std::vector<char>(static_cast<std::size_t>(mesh.cell_count()), 1);
+  std::vector<char> at_boundary(static_cast<std::size_t>(mesh.node_count()), 0), cells;
+  for (const Facet f : mesh.whole->boundary)
+    for (int k = 0; k < mesh.topology().nodes_per_facet; ++k) at_boundary[mesh.facet_node(f, k)] = 1;
+  for (int c = 0; c < mesh.cell_count(); ++c)
+    cells.push_back(std::any_of(mesh.cell(c), mesh.cell(c) + mesh.topology().nodes, [&](int node) { return at_boundary[node] != 0; }));
+  return cells;
 }
 
 std::vector<Facet> select(const Mesh& mesh,

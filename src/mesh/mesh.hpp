@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
@@ -29,14 +30,14 @@ struct Coarser {
   std::shared_ptr<const Coarser> next;  ///< that mesh's own
 };
 
-/// What a mesh of the cells near the boundary knows of the whole mesh.
+/// What a part of a mesh, the cells near its boundary, knows of the whole.
 struct Whole {
   std::vector<Facet> boundary;      ///< the whole mesh's, by cell; all belong to cells that are here
   std::vector<int> nodes;           ///< how many the whole mesh has, then each coarser one
-  double cells = 0;
+  std::int64_t cells = 0;           ///< of the whole mesh
 };
 
-/// A conforming mesh of one cell type, with named boundary parts.
+/// A conforming mesh of one cell type, with named boundary parts; or a part of one.
 struct Mesh {
   Element element = Element::triangle_p1;
   std::vector<double> coordinates;  ///< dimension × node_count, node by node; the user's length unit
@@ -88,6 +89,9 @@ std::vector<int> facet_neighbours(const Mesh& mesh);
 
 /// All boundary facets (those that belong to one cell only), by cell; of a part of a mesh, those of the whole.
 std::vector<Facet> boundary(const Mesh& mesh);
+
+/// Flags the cells all of whose nodes have all their cells here: of a part of a mesh those at the boundary of the whole, else all.
+std::vector<char> surrounded_cells(const Mesh& mesh);
 
 /// The boundary facets that `chosen(centre, unit outward normal)` accepts.
 std::vector<Facet> select(const Mesh& mesh,

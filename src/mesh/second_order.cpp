@@ -151,10 +151,16 @@ Mesh cut_at_nodes(Mesh whole) {
       for (int& k : corners) k = t.facet_nodes[l][k];
       within[l].push_back(facet_of_pieces(mesh.topology(), pieces, corners));
     }
-  for (const auto& [name, facets] : whole.parts)
+  const auto cut = [&](const std::vector<Facet>& facets, std::vector<Facet>& to) {
     for (const Facet facet : facets)
-      for (const Facet of : within[static_cast<std::size_t>(facet.local)])
-        mesh.parts[name].push_back({facet.cell * static_cast<int>(pieces.size()) + of.cell, of.local});
+      for (const Facet of : within[static_cast<std::size_t>(facet.local)]) to.push_back({facet.cell * static_cast<int>(pieces.size()) + of.cell, of.local});
+  };
+  for (const auto& [name, facets] : whole.parts) cut(facets, mesh.parts[name]);
+  if (!whole.whole) return mesh;
+  auto known = std::make_shared<Whole>(Whole{{}, whole.whole->nodes, whole.whole->cells * static_cast<std::int64_t>(pieces.size())});
+  cut(whole.whole->boundary, known->boundary);
+  std::ranges::sort(known->boundary);
+  mesh.whole = std::move(known);
   return mesh;
 }
 

@@ -192,5 +192,5 @@ DOTYK_DOOR dotyk::algebra::SlicedMatrix* dotyk_multigrid_slices(const dotyk::mul
 DOTYK_DOOR dotyk::algebra::SlicedMatrix* dotyk_multigrid_refined_slices(const dotyk::multigrid::Refined& matrix) {
   using namespace dotyk::multigrid;
   const std::lock_guard lock(only_one());
-  return new RankSlices(workers_for(static_cast<double>(matrix.base.coupling.node.size()) * (1 << (3 * matrix.times))), matrix);
+  return new RankSlices(workers_for(static_cast<double>(matrix.base.coupling.node.size()) * (1 << (matrix.coarse.front().dimension * matrix.times))), matrix);
 }

@@ -117,7 +117,7 @@ std::unique_ptr<Slice> receive_refined_slice(const Ranks& ranks, const ShareMake
   std::vector<int> sizes, number, first, place;
   ranks.receive(0, sizes), ranks.receive(0, number), ranks.receive(0, first), ranks.receive(0, place);
   const int times = sizes[0], dimension = sizes[1];
-  RefinedShare share(ranks, makers.refinable(receive_lists(ranks, 0)), std::move(number), std::move(first), place);
+  RefinedShare share(ranks, makers.refinable(receive_lists(ranks, 0)), dimension, std::move(number), std::move(first), place);
   for (int k = 0; k < times; ++k) share.refine({});
   std::vector<std::vector<int>> prescribed(static_cast<std::size_t>(times) + 1);
   for (auto& rows : prescribed) ranks.receive(0, rows);
@@ -246,7 +246,7 @@ std::unique_ptr<Slice> RankSlices::share_out(const Refined& matrix) {
     ranks.send(r, std::vector<int>{matrix.times, d}), ranks.send(r, own_number), ranks.send(r, first), ranks.send(r, place);
     send(ranks, r, own.lists);
   }
-  RefinedShare share(ranks, matrix.base.makers.refinable(std::move(own.lists)), std::move(own_number), std::move(first), place);
+  RefinedShare share(ranks, matrix.base.makers.refinable(std::move(own.lists)), d, std::move(own_number), std::move(first), place);
   std::vector<std::vector<int>> number(1), prescribed;  // by level
   for (std::size_t i = 0; i < base.slot().size(); i += d) number[0].push_back(base.slot()[i] / d);
   for (int level = matrix.times - 1; level >= 0; --level) number.insert(number.begin(), share.refine(means_by_number(matrix.coarse[level], number.front())));
@@ -363,7 +363,7 @@ algebra::StoredMatrix RankSlices::near(std::vector<char>& of, int layers) const 
   std::vector<int> outermost;
   for (std::size_t i = 0; i < of.size(); ++i)
     if (of[i]) outermost.push_back(static_cast<int>(i));
-  const double entries = entries_ * static_cast<double>(outermost.size()) / static_cast<double>(of.size());
+  const double entries = entries_ * static_cast<double>(outermost.size()) / static_cast<double>(numbering_->first(0).back());
   if (entries > std::numeric_limits<int>::max())
     throw InputError(text("the stiffness has ", entries, " entries, too many to be put together; dotyk.solver.multigrid{} does without"));
   require_memory(18 * entries, "the stiffness, put together from its slices,");  // all entries, and 12 bytes for each of half of them

@@ -42,7 +42,15 @@ CoarserBlock coarser(const Block& fine, std::vector<algebra::CoarseFunctions> al
   std::vector<int> nodes;
   for (std::size_t l = 0; l < all.size(); ++l) nodes.push_back(nodes_of(l + 1));
   block.coarse = {std::move(nodes), functions.dimension, [all = std::move(all)](int most) { return std::vector(all.begin(), all.begin() + most); }};
-  if (fine.coarse.rigid) block.coarse.rigid = [rigid = fine.coarse.rigid](int levels) { return rigid(levels + 1); };
+  if (!fine.coarse.rigid) return out;
+  block.coarse.rigid = [rigid = fine.coarse.rigid](int levels) { return rigid(levels + 1); };
+  if (block.hidden == 0) block.rigid = [rigid = fine.coarse.rigid, functions] {
+      const algebra::DenseMatrix all = rigid(1);  // empty columns of the functions among its rows
+      algebra::DenseMatrix motions(functions.columns, all.cols());
+      for (std::size_t k = 0; k < functions.column.size(); ++k)
+        if (functions.column[k] >= 0) motions.row(functions.column[k]) = all.row(static_cast<Eigen::Index>(k));
+      return motions;
+    };
   return out;
 }
 

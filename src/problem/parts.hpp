@@ -17,6 +17,7 @@ struct Parts {
   /// The greatest |v_r| of each part's rows; 0 of a part without rows.
   std::vector<double> greatest(const algebra::Vector& v) const;
 };
+/// One part where unknowns are hidden: sums over them are known of all blocks together.
 Parts parts(const Problem& problem);
 
 /// The least scale of each part that nothing loads, by a number of each (its greatest force or displacement, its work): so much of the greatest of the

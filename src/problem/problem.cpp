@@ -174,7 +174,7 @@ const algebra::SlicedMatrix* slices(const Problem& problem) {
 
 SparseMatrix lower_stiffness(const Problem& problem) {
   if (problem.blocks.size() == 1) return problem.blocks.front().K;
-  if (const auto* sliced = slices(problem)) {
+  if (const auto* sliced = slices(problem); sliced && !sliced->hides()) {
     std::vector<char> all(static_cast<std::size_t>(problem.unknowns()), 1);
     algebra::StoredMatrix whole = sliced->near(all);
     SparseMatrix lower;

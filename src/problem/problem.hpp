@@ -35,11 +35,11 @@ struct Block {
   std::vector<int> node;        ///< node of each unknown, ascending: what orderings keep together
   algebra::DenseMatrix kernel;  ///< ker K: unknowns × modes, linearly independent columns
   std::vector<Motion> motions;  ///< what the modes are; may be empty
-  int hidden = 0;               ///< unknowns that only the slices of K have: no load, row or kernel is about them, and they are not counted by size()
   int first = 0;                ///< index of its first unknown among all blocks'
   /// All rigid motions of the body on its unknowns, whatever holds it: what multigrid's coarse functions are made of. May be empty.
   std::function<algebra::DenseMatrix()> rigid = {};
   CoarseMeshes coarse = {};
+  int hidden = 0;  ///< unknowns that only the slices of K have: no load, row or kernel is about them, and they are not counted by size()
   int size() const { return static_cast<int>(f.size()); }
 };
 

@@ -75,7 +75,7 @@ if not told("cube(4)"):find("libpetsc", 1, true) then
   end
 
   -- Bodies that ranks refine: the numbers of one process, which has the whole meshes. Two bodies whose meshes do not match; triangles of order 2; a mesh that has
-  -- coarser ones of its own, and aggregates after them.
+  -- coarser ones of its own; a support smaller than the coarse cells; two bodies that nothing joins, one of them of aggregates.
   local refined <const> = [[
     local function material(E) return dotyk.material{ E = E, nu = 0.3 } end
     local function say(s, c, body, part, ...)
@@ -113,7 +113,29 @@ if not told("cube(4)"):find("libpetsc", 1, true) then
       local c = scene:contact{ b:part"top", rigid = dotyk.rigid.gap{ normal = {0,0,1}, gap = function(x, y) return ((x - 0.5)^2 + (y - 0.5)^2) / 2 - 0.05 end }, interference = true }
       say(dotyk.solver.multigrid{}:solve(scene), c, b, b:part"bottom", 1, 0.5, 0.75)
     end
-    blocks() plane() cube() ]]
+    local function clamped()
+      local b = dotyk.body{ material = material(1000), refine = 3, mesh = dotyk.mesh.box{ from = {0,0,0}, to = {1,1,1}, cells = {2,2,2} } }
+      local clamp = b:part("clamp", function(x, y, z) return x == 0 and y < 0.4 and z < 0.4 end)
+      clamp:fix()
+      b:part"right":load{ 0, 0, -1 }
+      local scene = dotyk.scene{ b }
+      local c = scene:contact{ b:part"bottom", rigid = dotyk.rigid.plane{ point = {0,0,-0.01}, normal = {0,0,1} } }
+      say(dotyk.solver.multigrid{}:solve(scene), c, b, clamp, 1, 0.5, 0.75)
+    end
+    local function apart()
+      local function pressed(name, x, n, depth)
+        local b = dotyk.body{ name = name, material = material(1000), refine = 1, mesh = dotyk.mesh.box{ from = {x,0,0}, to = {x + 1,1,1}, cells = {n,n,n} } }
+        b:part"bottom":fix()
+        return b, { b:part"top", rigid = dotyk.rigid.gap{ normal = {0,0,1}, gap = function(x, y) return (x - 0.5)^2 / 2 + (y - 0.5)^2 / 2 - depth end }, interference = true }
+      end
+      local one, on_one = pressed("one", 0, 13, 0.02)
+      local two, on_two = pressed("two", 5, 4, -9)
+      local scene = dotyk.scene{ one, two }
+      local c = scene:contact(on_one)
+      scene:contact(on_two)
+      say(dotyk.solver.multigrid{}:solve(scene), c, one, one:part"bottom", 1, 0.5, 0.75)
+    end
+    blocks() plane() cube() clamped() apart() ]]
   local function numbers(text)
     local all <const> = {}
     for line in text:gmatch "|(.-)|" do
@@ -123,11 +145,11 @@ if not told("cube(4)"):find("libpetsc", 1, true) then
     return all
   end
   local alone <const> = numbers(told("dotyk.ranks(1)" .. refined))
-  check.that(#alone == 3, "three scenes on one rank")
+  check.that(#alone == 5, "five scenes on one rank")
   for _, ranks in ipairs{ 2, 3, 5 } do
     local text <const> = told("dotyk.ranks(" .. ranks .. ")" .. refined)
     local several <const> = numbers(text)
-    check.that(#several == 3, text)
+    check.that(#several == 5, text)
     for k, own in ipairs(alone) do
       local greatest = 0  -- of displacements and forces, whose components may vanish
       for i = 6, #own do greatest = math.max(greatest, math.abs(own[i])) end
@@ -154,6 +176,7 @@ if not told("cube(4)"):find("libpetsc", 1, true) then
   refused("solved(body())", "'b' is free to move")
   refused("solved(held(), held{ name = 'c', refine = 1 })", "on several ranks all bodies of a scene have the same")
   refused("solved(held()):error_estimate()", "an error estimate needs them")
+  refused("solved(held()):render{ file = os.tmpname() .. '.png', cut = { point = {0.5, 0.5, 0.5}, normal = {0, 1, 0} } }", "a cut needs them")
   refused("local b = held() solved(b):displacement(b, 0.5, 0.5, 0.5)", "lies in no cell at the boundary of 'b'")
   says(told(body .. "local b = held() print(b, b.node_count, b.cell_count) print(dotyk.scene{ b }:plan()) print(dotyk.solve(dotyk.scene{ b }))"), "4913 nodes", 0)
 end

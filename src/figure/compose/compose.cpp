@@ -96,6 +96,12 @@ BodyPicture body_picture(const Solution& s, int index, const SceneOptions& optio
   if (!field_of(field).value) return picture;
   for (int n = 0; n < mesh.node_count(); ++n)
     picture.values.push_back(field_of(field).value(mesh::at_node(u, n, dim), is_stress(field) ? s.stress(index)[n] : Stress{}));
+  if (mesh.whole) {  // what is not seen, and not well known, does not stretch the colours
+    std::vector<char> seen(picture.values.size(), 0);
+    for (const int node : picture.facets) seen[node] = 1;
+    for (std::size_t n = 0; n < seen.size(); ++n)
+      if (!seen[n]) picture.values[n] = picture.values[picture.facets[0]];
+  }
   return picture;
 }
 
@@ -246,6 +252,8 @@ void move(std::vector<double>& points, const Vec3& by) {
 ScenePicture compose(const Solution& s, const SceneOptions& options) {
   const int dim = s.scene().dimension();
   refuse_missing(options.field, dim);
+  for (const auto& body : s.scene().bodies)
+    if (dim == 2) scene::require_whole(*body, "a picture in the plane");
   if (dim == 2 && options.explode > 0) throw InputError("'explode' is for scenes in space; this one is 2-D");
   if (dim == 3 && options.trajectories) throw InputError("'trajectories' is for scenes in the plane; this one is in space");
   ScenePicture picture;

@@ -1,4 +1,6 @@
 // From a solution to its file for ParaView.
+#include <algorithm>
+
 #include "figure/compose/compose.hpp"
 #include "figure/compose/compose_plate.hpp"
 
@@ -24,8 +26,11 @@ void add_points(const mesh::Mesh& mesh, GridFile& file) {
 
 void add_body(const Solution& s, int index, std::size_t first, GridFile& file) {
   const mesh::Mesh& mesh = *s.scene().bodies[index]->mesh;
-  GridBody& body = file.bodies.emplace_back(GridBody{s.scene().bodies[index]->name, cell_shape(mesh), mesh.cells, mesh.topology().order});
-  for (int& node : body.cells) node += static_cast<int>(first);
+  GridBody& body = file.bodies.emplace_back(GridBody{s.scene().bodies[index]->name, cell_shape(mesh), {}, mesh.topology().order});
+  const std::vector<char> known = mesh::surrounded_cells(mesh);
+  body.cells.reserve(mesh.cells.size());
+  for (int c = 0; c < mesh.cell_count(); ++c)
+    for (int k = 0; k < mesh.topology().nodes && known[c]; ++k) body.cells.push_back(mesh.cell(c)[k] + static_cast<int>(first));
   add_points(mesh, file);
 }
 
@@ -70,6 +75,27 @@ void add_contacts(const Solution& s, const std::vector<std::size_t>& first, Grid
     if (any) file.arrays.push_back(std::move(*array));
 }
 
+/// Leaves out points that no cell has.
+void drop_stray_points(GridFile& file) {
+  std::vector<int> number(file.points.size() / 3, -1);
+  for (const GridBody& body : file.bodies)
+    for (const int node : body.cells) number[node] = 0;
+  int count = 0;
+  for (int& n : number)
+    if (n == 0) n = count++;
+  const auto keep = [&](std::vector<double>& values) {
+    const std::size_t each = values.size() / number.size();
+    std::vector<double> kept;
+    for (std::size_t n = 0; n < number.size(); ++n)
+      if (number[n] >= 0) kept.insert(kept.end(), values.begin() + static_cast<std::ptrdiff_t>(n * each), values.begin() + static_cast<std::ptrdiff_t>((n + 1) * each));
+    values.swap(kept);
+  };
+  keep(file.points);
+  for (GridArray& array : file.arrays) keep(array.values);
+  for (GridBody& body : file.bodies)
+    for (int& node : body.cells) node = number[node];
+}
+
 }  // namespace
 
 GridFile compose_grid(const Solution& s, const std::string& name) {
@@ -78,6 +104,7 @@ GridFile compose_grid(const Solution& s, const std::string& name) {
   for (int b = 0; b < static_cast<int>(s.scene().bodies.size()); ++b) add_body(s, b, first[b], file);
   add_fields(s, file);
   add_contacts(s, first, file);
+  if (std::ranges::any_of(s.scene().bodies, [](const auto& body) { return body->unrefined != nullptr; })) drop_stray_points(file);
   return file;
 }
 

@@ -55,32 +55,44 @@ class Questions {
   std::vector<std::vector<int>> asked_, places_;
 };
 
-}  // namespace
-
-RefinedShare::RefinedShare(const Ranks& ranks, std::unique_ptr<algebra::Refinable> cells, std::vector<int> number, std::vector<int> first, const std::vector<int>& place)
-    : ranks_(ranks), cells_(std::move(cells)), dimension_(cells_->dimension()), number_(std::move(number)), place_(place.begin(), place.end()), first_{std::move(first)} {}
-
-std::vector<int> RefinedShare::refine(const Rows& asked) {
+/// Nodes of the cells once they are cut: the numbers of the nodes whose mean each is, and its place.
+struct FinerNodes {
   Rows means;
   std::vector<double> place;
-  {
-    const Buckets here = cells_->refine();
+
+  FinerNodes(const Buckets& here, const std::vector<int>& number, const std::vector<double>& coarse_place) {
     std::vector<int> row;
     for (int i = 0; i < here.count(); ++i) {
       double sum = 0;
-      for (const int p : here[i]) row.push_back(number_[p]), sum += place_[p];
+      for (const int p : here[i]) row.push_back(number[p]), sum += coarse_place[p];
       means.append_columns(row), place.push_back(sum / static_cast<double>(here[i].size()));
     }
   }
+};
+
+/// The first of each rank, and the number of all, from the number of own ones. Collective.
+std::vector<int> firsts(const Ranks& ranks, int own) {
+  std::vector<int> first = ranks.gather(own);
+  first.insert(first.begin(), 0);
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  return first;
+}
+
+}  // namespace
+
+RefinedShare::RefinedShare(const Ranks& ranks, std::unique_ptr<algebra::Refinable> cells, int dimension, std::vector<int> number, std::vector<int> first,
+                           const std::vector<int>& place)
+    : ranks_(ranks), cells_(std::move(cells)), dimension_(dimension), number_(std::move(number)), place_(place.begin(), place.end()), first_{std::move(first)} {}
+
+std::vector<int> RefinedShare::refine(const Rows& asked) {
+  const auto [means, place] = FinerNodes(cells_->refine(), number_, place_);
   const std::vector<int>& first = first_.front();
   const int begin = first[ranks_.own()], end = first[ranks_.own() + 1];
   const auto decides = [greatest = first_.size() % 2 == 0](std::span<const int> of_node) { return greatest ? of_node.back() : of_node.front(); };
   const auto rank_of = [&](std::span<const int> of_node) { return static_cast<std::size_t>(std::ranges::upper_bound(first, decides(of_node)) - first.begin()) - 1; };
   std::vector<char> own(place.size());
   for (std::size_t i = 0; i < own.size(); ++i) own[i] = decides(columns_of(means, i)) >= begin && decides(columns_of(means, i)) < end;
-  std::vector<int> finer = ranks_.gather(static_cast<int>(std::ranges::count(own, 1)));
-  finer.insert(finer.begin(), 0);
-  std::partial_sum(finer.begin(), finer.end(), finer.begin());
+  std::vector<int> finer = firsts(ranks_, static_cast<int>(std::ranges::count(own, 1)));
 
   const std::vector<int> before = cells_->keep(own, place);
   std::vector<int> numbers(before.size() + asked.starts.size() - 1), number(own.size(), -1);

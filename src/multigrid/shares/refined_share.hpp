@@ -17,13 +17,13 @@ using PrescribedBits = std::unordered_map<int, int>;
 PrescribedBits prescribed_bits(const std::vector<int>& rows, int dimension);
 
 /// One rank's cells about its own nodes. Nodes of all ranks are numbered so that those of a rank follow one another. A node of a finer mesh is known by the nodes
-/// whose mean it is; it belongs to the rank of the one with the least number or, every second time, the greatest: else low ranks would get more. So no rank needs the cells of
-/// others.
+/// whose mean it is. It belongs to the rank of the one with the least number. Every second time it is the greatest number, so that no rank gets more than others. The
+/// rank that owns a node has all cells about it.
 class RefinedShare {
  public:
-  /// `number`: of each node of the cells; `first`: of each rank its first node, and the number of all; `place`: of each node of the cells one in a good order of all
+  /// `dimension`: components of a node; `number`: of each node of the cells; `first`: of each rank its first node, and the number of all; `place`: of each node of the cells one in a good order of all
   /// nodes for sweeps, as the coarse mesh has them.
-  RefinedShare(const Ranks& ranks, std::unique_ptr<algebra::Refinable> cells, std::vector<int> number, std::vector<int> first, const std::vector<int>& place);
+  RefinedShare(const Ranks& ranks, std::unique_ptr<algebra::Refinable> cells, int dimension, std::vector<int> number, std::vector<int> first, const std::vector<int>& place);
 
   /// Refines once, and keeps the cells about own nodes. `asked`: of any nodes of the finer mesh, the numbers of the nodes whose mean each is. Returns the numbers
   /// of these nodes. Collective.

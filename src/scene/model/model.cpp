@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <span>
 #include <stdexcept>
@@ -40,19 +41,28 @@ std::string supports_of(const Body& body) {
   return listed(all, 4);
 }
 
-/// Of the coarse mesh of a body that ranks refine, whose supports hold the finest mesh.
+/// Of the coarse mesh of a body that ranks refine, held at all nodes whose functions meet a support: a support smaller than coarse cells counts as great as these.
 elasticity::WeakMotions weak_motions_before_refining(const Unrefined& body, const problem::Block& block) {
+  const std::vector<algebra::CoarseFunctions> functions = block.coarse.functions(body.times);
   std::vector<char> fixed;
-  for (const int column : block.coarse.functions(body.times).back().column) fixed.push_back(column < 0);
+  for (const int row : functions[0].row) fixed.push_back(row < 0);
+  for (const algebra::CoarseFunctions& level : functions) {
+    std::vector<char> coarse(level.column.size(), 0);
+    const int d = level.dimension;
+    for (int node = 0; node < level.nodes(); ++node)
+      for (const int p : level.of(node))
+        for (int k = 0; k < d; ++k) coarse[d * p + k] |= fixed[d * node + k];
+    fixed.swap(coarse);
+  }
   const Numbering numbering = elasticity::number(*body.mesh, fixed, {});
-  const algebra::SymmetricMatrix K = elasticity::assemble(*body.mesh, body.material, {}, numbering);
-  return elasticity::weak_motions(*body.mesh, body.material, {}, numbering, K, algebra::DenseMatrix(numbering.count(), 0));
+  return elasticity::weak_motions(*body.mesh, body.material, {}, numbering, [&] { return elasticity::assemble(*body.mesh, body.material, {}, numbering); },
+                                  algebra::DenseMatrix(numbering.count(), 0));
 }
 
 /// The entry of Model::nearly_free; lowers `softest`.
 std::string nearly_free(const Body& body, const Numbering& numbering, const problem::Block& block, double& softest) {
   const auto weak = body.unrefined ? weak_motions_before_refining(*body.unrefined, block)
-                                   : elasticity::weak_motions(*body.mesh, body.material, body.facet_springs(), numbering, block.K, block.kernel);
+                                   : elasticity::weak_motions(*body.mesh, body.material, body.facet_springs(), numbering, [&] { return block.K; }, block.kernel);
   if (weak.motions.empty()) return "";
   softest = std::min(softest, weak.stiffness);
   const std::string motions = listed(texts(weak.motions));
@@ -305,14 +315,17 @@ namespace {
 
 /// Are the bodies refined by the ranks? Throws where that is not so of all in one way, or where one is not held.
 bool refined_by_ranks(const Model& model) {
+  double all = 0;
+  for (const problem::Block& block : model.problem.blocks) all += block.size() + static_cast<double>(block.hidden);
+  if (all > std::numeric_limits<int>::max()) throw InputError(text("the scene has ", all, " unknowns; at most ", std::numeric_limits<int>::max(), " can be numbered"));
   const auto times = [](const Body& body) { return body.unrefined ? body.unrefined->times : 0; };
   const Body& first = model.bodies.front();
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const Body& body = model.bodies[b];
     if (times(body) != times(first))
-      throw InputError(text("'", first.name, "' has refine = ", times(first), ", '", body.name, "' refine = ", times(body), ": on several ranks all bodies of a scene have the same"));
+      throw InputError(text("'", first.name, "' has refine = ", times(first), ", '", body.name, "' refine = ", times(body), " (0: it was made before there were several ranks, or without): on several ranks all bodies of a scene have the same"));
     if (times(body) > 0 && model.problem.blocks[b].kernel.cols() > 0)
-      throw InputError(text("'", body.name, "' is free to move (", listed(texts(model.problem.blocks[b].motions)), "): with refine on several ranks supports must hold it; contact is not enough"));
+      throw InputError(text("'", body.name, "' is free to move (", listed(texts(model.problem.blocks[b].motions)), "): with refine on several ranks fix, slide or displace must hold it; contact and laws are not enough"));
   }
   return times(first) > 0;
 }

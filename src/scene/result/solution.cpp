@@ -210,7 +210,7 @@ std::string path_text(const Solution& s) {
 
 std::string describe(const Solution& s) {
   std::string out = "solution: " + solver::ending(s.result()) + "\n";
-  out += text("  unknowns ", s.unknowns(), ", rows ", s.rows(), ", energy ", s.energy(), "\n");
+  out += text("  unknowns ", s.model().problem.all_unknowns(), ", rows ", s.rows(), ", energy ", s.energy(), "\n");
   out += "  residual: " + problem::describe(s.residual()) + "\n";
   for (const auto& contact : s.scene().contacts) {
     if (contact->kind != Contact::Kind::contact) continue;

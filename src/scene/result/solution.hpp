@@ -128,7 +128,7 @@ class Solution : public std::enable_shared_from_this<Solution> {
   const std::vector<double>& dissipated() const { return dissipated_; }
   /// The steps of the solve, this one the last.
   std::vector<std::shared_ptr<const Solution>> steps() const;
-  int unknowns() const { return model_.problem.all_unknowns(); }
+  int unknowns() const { return static_cast<int>(result_.state.u.size()); }
   int rows() const { return static_cast<int>(result_.state.lambda.size()); }
 
   /// Nodal displacement of a body (index in the scene), node × dimension; made on first use.

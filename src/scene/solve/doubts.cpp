@@ -30,8 +30,10 @@ double poisson_ratio(const elasticity::Hooke& hooke) {
 void add_locking(const Body& body, std::vector<std::string>& all) {
   const mesh::ElementTopology& cells = body.mesh->topology();
   if (cells.order > 1) return;
-  double nu = poisson_ratio(body.material.at(0));
-  for (int c = 1; body.material.varies() && c < body.mesh->cell_count(); ++c) nu = std::max(nu, poisson_ratio(body.material.at(c)));
+  const elasticity::MaterialField& material = body.unrefined ? body.unrefined->material : body.material;
+  const int count = (body.unrefined ? *body.unrefined->mesh : *body.mesh).cell_count();
+  double nu = poisson_ratio(material.at(0));
+  for (int c = 1; material.varies() && c < count; ++c) nu = std::max(nu, poisson_ratio(material.at(c)));
   if (nu > kLocks)
     all.push_back(text("'", body.name, "' is nearly incompressible (nu = ", nu, "): ", cells.name, " ", cells.shapes,
                        " lock, displacements come out too small, and error_estimate() notices too little of it; take second-order cells (",

@@ -130,13 +130,13 @@ std::string method_and_verdict(const Scene& scene, bool any_free) {
   problem::Clock clock;
   Monitor quiet;
   std::string out = "\n  method: ", how = "none, since there is no solution";
+  const bool by_ranks = scene.bodies.front()->unrefined != nullptr;
   try {
-    const bool by_ranks = scene.bodies.front()->unrefined != nullptr;
     const Model model = build(scene, clock, quiet, {}, {}, [&](const problem::Problem&) { return by_ranks; });
     how = by_ranks ? text("multigrid on all ", model.problem.all_unknowns(), " unknowns, by the ranks that refine the bodies") : method(model.problem, any_free);
     return out + how + "\n  " + verdict(scene, model);
   } catch (const InputError& error) {
-    return out + how + "\n  no solution: " + error.what();
+    return out + (by_ranks ? "none on several ranks: " : how + "\n  no solution: ") + error.what();
   }
 }
 

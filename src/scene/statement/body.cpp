@@ -81,11 +81,11 @@ std::shared_ptr<Body> make_refined_body(std::string name, std::shared_ptr<const 
   }
   auto body = std::make_shared<Body>();
   body->name = std::move(name);
+  body->unrefined = std::make_shared<const Unrefined>(Unrefined{mesh, material, times});
+  if (force) require_whole(*body, "a force per volume");
   body->mesh = std::make_shared<const mesh::Mesh>(elasticity::refined_near_boundary(*mesh, times, parent, &monitor));
   mesh::check(*body->mesh, "body '" + body->name + "'");
   body->material = material.of(parent);
-  body->unrefined = std::make_shared<const Unrefined>(Unrefined{std::move(mesh), std::move(material), times});
-  if (force) load_volume(*body, force);
   return body;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -137,7 +138,7 @@ struct Body {
   int dimension() const { return mesh->dimension(); }
   /// Of the whole mesh.
   int node_count() const { return mesh->whole ? mesh->whole->nodes.front() : mesh->node_count(); }
-  double cell_count() const { return mesh->whole ? mesh->whole->cells : mesh->cell_count(); }
+  std::int64_t cell_count() const { return mesh->whole ? mesh->whole->cells : mesh->cell_count(); }
   /// Components of nodes that only the ranks have.
   int hidden_components() const { return dimension() * (node_count() - mesh->node_count()); }
   std::vector<elasticity::FacetSpring> facet_springs() const;

@@ -287,7 +287,7 @@ Field HeldStiffness::field(const problem::Displacement& u) const {
 
 problem::Displacement HeldStiffness::interpolated(const problem::Coarser& coarse, const problem::Displacement& u) const {
   Field finer = field();
-  if (!u.there() || !solver_->interpolate(*u.there(), finer)) return coarse.finer_displacement(u);
+  if (!solver_->interpolate(*problem::field(coarse.problem, u), finer)) return coarse.finer_displacement(u);
   finer.set_watched(near_basis_.displacements(finer.watched()));
   return problem::Displacement(std::move(finer));
 }

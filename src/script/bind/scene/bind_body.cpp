@@ -283,7 +283,7 @@ void bind_body(Library& library) {
                          key::object<Material>("material", "what it is made of").required(),
                          key::field("force", "force per volume, its components").unit("force/volume").otherwise("none"),
                          key::integer("refine", "how often all cells are cut, into 4 in the plane, 8 in space, as by mesh:refined; E and nu are those of the cells before. "
-                                                "Several ranks cut them where they work, so that none has the whole mesh: dotyk.solver.multigrid{} alone solves such a body").within(0, 10).otherwise("0")})},
+                                                "Several ranks cut them where they work, so that none has the whole mesh: only multigrid solves such a body, and results are known in cells at its boundary").within(0, 10).otherwise("0")})},
                     .run = make_body});
   library.type<Body>("An elastic body with its supports and loads.")
       .setup(setup::block())

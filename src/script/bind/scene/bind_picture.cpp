@@ -97,6 +97,8 @@ ScenePicture picture_of(Call& call, bool alone) {
   picture.edges = read_edges(call, map ? figure::MeshEdges::off : figure::MeshEdges::automatic);
   if (call.has("view") && plane(picture)) throw InputError("'view' is for scenes in space; this one is 2-D (try 'window')");
   picture.view_from = read_direction(call, "view");
+  for (const auto& body : s->scene().bodies)
+    if (call.has("cut")) scene::require_whole(*body, "a cut");
   read_window(call, picture), read_cut(call, picture), read_notes(call, picture);
   if (picture.isolines && !plane(picture)) throw InputError("'isolines' are for the plane and for maps; this picture is in space");
   return picture;
@@ -250,7 +252,7 @@ void bind_picture(Library& library) {
                "numbered by \"body\", with displacement, stress, von_mises and, where there is contact, "
                "contact_pressure, contact_gap and contact_status (0 open, 1 closed, 2 stick, 3 slip, -1 no contact) "
                "at the nodes; of contacts whose nodes do not match at the first part's alone. A .pvtu is a list of files beside it, "
-               "a_0.vtu, a_1.vtu, … of a.pvtu, each with a share of the cells, which many readers take side by side.",
+               "a_0.vtu, a_1.vtu, … of a.pvtu, each with a share of the cells, which many readers take side by side. Of bodies with refine on several ranks the cells at the boundary are written.",
        .example = "s:write \"a.vtu\"\ns:write(\"parts.pvtu\", { pieces = 2 })",
        .arguments = {key::file("file", "where to; ends in .vtu or .pvtu, its folder must exist").written().required(),
                      key::table("options", {key::integer("pieces", "files of a .pvtu").within(1, 100000).otherwise("one for each million cells")}, "of a .pvtu")

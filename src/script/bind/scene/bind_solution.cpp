@@ -193,7 +193,7 @@ void bind_solution(Library& library) {
       .field("energy", "½uᵀKu − fᵀu, springs and laws of supports included, friction not", [](const Solution& s) { return s.energy(); }, "force·length")
       .field("friction_energy", "the friction term of the energy: what friction dissipates in this step", [](const Solution& s) { return s.friction_energy(); }, "force·length")
       .field("steps", "the solutions of a history's steps, the last is this one", [](const Solution& s) { return s.steps(); })
-      .field("unknowns", "displacement unknowns", [](const Solution& s) { return s.unknowns(); })
+      .field("unknowns", "displacement unknowns", [](const Solution& s) { return s.model().problem.all_unknowns(); })
       .field("rows", "interface conditions", [](const Solution& s) { return s.rows(); })
       .field("time", "seconds, of a history since its first step: total assembly motions ordering factor iterate recover; pairing, before and not in "
                      "total: what scene:contact and scene:glue took", times, "s")
