@@ -12,10 +12,10 @@ namespace dotyk::algebra {
 class Refinable {
  public:
   virtual ~Refinable() = default;
-  /// Refines all cells once. Node → the nodes before whose mean it is.
+  /// Refines all cells once. Returns, for each node of the refined cells, the nodes of the cells before whose mean it is.
   virtual Buckets refine() = 0;
-  /// Keeps the cells that have a flagged node. The nodes left are numbered anew, those of a body by ascending `place`. Returns what number each had before.
-  virtual std::vector<int> keep(const std::vector<char>& flagged, const std::vector<double>& place) = 0;
+  /// Keeps the cells that have a flagged node. Returns, for each node left, its number before; ascending.
+  virtual std::vector<int> keep(const std::vector<char>& flagged) = 0;
   /// The lower triangle of the stiffness of these cells, node × dimension without the components flagged in `fixed`. The cells are gone then.
   virtual StoredMatrix assemble(const std::vector<char>& fixed) = 0;
 };

@@ -56,6 +56,13 @@ mesh::Mesh refined(const mesh::Mesh& mesh, Monitor* watch) {
   return pieces;
 }
 
+MaterialField of_pieces(const MaterialField& material, const mesh::Mesh& mesh, const mesh::Mesh& finer) {
+  const int each = finer.cell_count() / mesh.cell_count();
+  std::vector<int> whole(static_cast<std::size_t>(material.varies() ? finer.cell_count() : 0));
+  for (std::size_t c = 0; c < whole.size(); ++c) whole[c] = static_cast<int>(c) / each;
+  return material.of(whole);
+}
+
 double refining_bytes(const mesh::Mesh& mesh) {
   const double pieces = mesh.dimension() == 2 ? 4 : 8;
   return 2 * pieces * (4.0 * static_cast<double>(mesh.cells.size()) + 8.0 * static_cast<double>(mesh.coordinates.size()));
@@ -112,84 +119,66 @@ Counts counts(const mesh::Mesh& mesh, std::size_t boundary) {
   return n;
 }
 
-/// Flags the nodes of cells that have a flagged node.
-void widen(const mesh::Mesh& mesh, std::vector<char>& flagged) {
-  const int per_cell = mesh::nodes_of(mesh.element);
-  const std::vector<char> before = flagged;
-  for (int c = 0; c < mesh.cell_count(); ++c)
-    if (std::any_of(mesh.cell(c), mesh.cell(c) + per_cell, [&](int node) { return before[node] != 0; }))
-      for (int k = 0; k < per_cell; ++k) flagged[mesh.cell(c)[k]] = 1;
-}
-
-/// Two layers of cells at these facets, with all facets of parts that they have.
-mesh::Submesh two_layers(const mesh::Mesh& from, const std::vector<mesh::Facet>& at) {
-  const int per_cell = mesh::nodes_of(from.element);
-  std::vector<char> near(static_cast<std::size_t>(from.node_count()), 0);
-  for (const mesh::Facet f : at)
-    for (int a = 0; a < from.topology().nodes_per_facet; ++a) near[from.facet_node(f, a)] = 1;
-  widen(from, near);
-  std::vector<int> cells, place(static_cast<std::size_t>(from.cell_count()), -1);
-  for (int c = 0; c < from.cell_count(); ++c)
-    if (std::any_of(from.cell(c), from.cell(c) + per_cell, [&](int node) { return near[node] != 0; })) place[c] = static_cast<int>(cells.size()), cells.push_back(c);
-  mesh::Submesh layers = mesh::submesh(from, std::move(cells));
-  for (const auto& [name, facets] : from.parts)
-    for (const mesh::Facet f : facets)
-      if (place[f.cell] >= 0) layers.mesh.parts[name].push_back({place[f.cell], f.local});
+/// Two layers of cells at the boundary, as a part of the mesh.
+mesh::Submesh two_layers(const mesh::Mesh& from) {
+  const std::vector<mesh::Facet> outside = mesh::boundary(from);
+  std::vector<char> near = mesh::flag_nodes(from, outside);
+  for (const int c : mesh::cells_at(from, near)) std::for_each_n(from.cell(c), mesh::nodes_of(from.element), [&](int node) { near[node] = 1; });
+  mesh::Submesh layers = mesh::submesh(from, mesh::cells_at(from, near));
+  std::vector<int> place(static_cast<std::size_t>(from.cell_count()), -1);
+  for (std::size_t k = 0; k < layers.cell.size(); ++k) place[layers.cell[k]] = static_cast<int>(k);
+  const auto placed = [&](std::vector<mesh::Facet> facets) {
+    for (mesh::Facet& f : facets) f.cell = place[f.cell];
+    std::erase_if(facets, [](mesh::Facet f) { return f.cell < 0; });
+    return facets;
+  };
+  for (const auto& [name, facets] : from.parts) layers.mesh.parts[name] = placed(facets);
+  layers.mesh.whole = std::make_shared<mesh::Whole>(mesh::Whole{placed(outside), {}});
   return layers;
 }
 
-/// Node i, of a mesh that refines some cells of another, as the mean of that mesh's nodes. `of_cells` has them by the nodes of these cells, `node` of each of these the other mesh's.
-std::shared_ptr<const mesh::Coarser> coarser_of(const mesh::Submesh& layers, const mesh::Coarser& of_cells, const std::vector<int>& node, int node_count,
+/// What the layers of a finer mesh refine: a mesh of `node_count` nodes. `means`: of all nodes of the finer mesh, by the nodes of the cells that were cut; `node`: which
+/// node of the coarser mesh each of these is.
+std::shared_ptr<const mesh::Coarser> coarser_of(const mesh::Submesh& layers, const Buckets& means, const std::vector<int>& node, int node_count,
                                                 std::shared_ptr<const mesh::Coarser> next) {
-  const auto means = [&](auto&& put) {
+  const auto put_all = [&](auto&& put) {
     for (std::size_t i = 0; i < layers.node.size(); ++i)
-      for (const int p : of_cells.means[layers.node[i]]) put(static_cast<int>(i), node[p]);
+      for (const int p : means[layers.node[i]]) put(static_cast<int>(i), node[p]);
   };
-  return std::make_shared<mesh::Coarser>(mesh::Coarser{Buckets(static_cast<int>(layers.node.size()), means), node_count, std::move(next)});
+  return std::make_shared<mesh::Coarser>(mesh::Coarser{Buckets(static_cast<int>(layers.node.size()), put_all), node_count, std::move(next)});
 }
 
 }  // namespace
 
 mesh::Mesh refined_near_boundary(const mesh::Mesh& mesh, int times, std::vector<int>& parent, Monitor* watch) {
-  const std::string boundary(1, '\0');  // a part of the mesh while it is refined
-  auto whole = std::make_shared<mesh::Whole>();
-  whole->nodes = mesh::coarser_nodes(mesh);
-  whole->nodes.insert(whole->nodes.begin(), mesh.node_count());
-  const std::vector<mesh::Facet> outside = mesh::boundary(mesh);
-  Counts count = counts(mesh, outside.size());
-
-  mesh::Mesh with_boundary = mesh;
-  with_boundary.parts[boundary] = outside;
-  mesh::Submesh now = two_layers(with_boundary, outside);  // all that lies near the boundary on finer meshes is in these
-  with_boundary = {};
+  std::vector<int> nodes = mesh::coarser_nodes(mesh);  // of whole meshes
+  nodes.insert(nodes.begin(), mesh.node_count());
+  Counts count = counts(mesh, mesh::boundary(mesh).size());
+  mesh::Submesh now = two_layers(mesh);  // all that lies near the boundary on finer meshes is in these
   parent = now.cell;
-  std::vector<int> node = std::move(now.node);
+  std::vector<int> node = now.node;
   int node_count = mesh.node_count();
   std::shared_ptr<const mesh::Coarser> coarser = mesh.coarser;
   for (int k = 0; k < times; ++k) {
     count = count.next();
-    const double nodes = mesh.topology().order == 2 ? count.next_corners() : count.corners;
-    if (nodes * mesh.dimension() > std::numeric_limits<int>::max())
-      throw InputError(text("refined ", times, times == 1 ? " time" : " times", " the mesh would have some ", nodes, " nodes; at most ",
+    const double all = mesh.topology().order == 2 ? count.next_corners() : count.corners;
+    if (all * mesh.dimension() > std::numeric_limits<int>::max())
+      throw InputError(text("refined ", times, times == 1 ? " time" : " times", " the mesh would have some ", all, " nodes; at most ",
                             std::numeric_limits<int>::max() / mesh.dimension(), " can be numbered"));
-    whole->nodes.insert(whole->nodes.begin(), static_cast<int>(nodes));
+    nodes.insert(nodes.begin(), static_cast<int>(all));
     require_memory(refining_bytes(now.mesh), "the boundary of the refined mesh");
-    mesh::Mesh finer = refined(now.mesh, watch);
-    mesh::Submesh layers = two_layers(finer, finer.parts[boundary]);
-    layers.mesh.coarser = coarser_of(layers, *finer.coarser, node, node_count, coarser);
+    const mesh::Mesh finer = refined(now.mesh, watch);
     const int each = finer.cell_count() / now.mesh.cell_count();
+    now = two_layers(finer);
+    coarser = now.mesh.coarser = coarser_of(now, finer.coarser->means, node, node_count, coarser);
     std::vector<int> of_layers;
-    for (const int c : layers.cell) of_layers.push_back(parent[c / each]);
-    parent.swap(of_layers), now = std::move(layers);
-    node_count = now.mesh.node_count(), coarser = now.mesh.coarser;
+    for (const int c : now.cell) of_layers.push_back(parent[c / each]);
+    parent.swap(of_layers);
+    node_count = now.mesh.node_count();
     node.resize(static_cast<std::size_t>(node_count));
     std::iota(node.begin(), node.end(), 0);
   }
-  whole->cells = static_cast<std::int64_t>(count.cells);
-  whole->boundary = std::move(now.mesh.parts[boundary]);
-  std::ranges::sort(whole->boundary);
-  now.mesh.parts.erase(boundary);
-  now.mesh.whole = std::move(whole);
+  now.mesh.whole = std::make_shared<mesh::Whole>(mesh::Whole{mesh::boundary(now.mesh), std::move(nodes), static_cast<std::int64_t>(count.cells)});
   now.mesh.generated = {now.mesh.coordinates.size(), now.mesh.cells.size()};
   return std::move(now.mesh);
 }

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "base/monitor.hpp"
+#include "elasticity/material.hpp"
 #include "mesh/mesh.hpp"
 
 namespace dotyk::elasticity {
@@ -12,11 +13,14 @@ namespace dotyk::elasticity {
 /// `watch`: asked between the steps whether to stop; Interrupted is thrown then.
 mesh::Mesh refined(const mesh::Mesh& mesh, Monitor* watch = nullptr);
 
-/// About what that needs while it works.
+/// The material of a mesh's cells as that of their pieces, where `finer` is the mesh refined once.
+MaterialField of_pieces(const MaterialField& material, const mesh::Mesh& mesh, const mesh::Mesh& finer);
+
+/// About how many bytes refined() needs while it works.
 double refining_bytes(const mesh::Mesh& mesh);
 
-/// The same so many times, but of the boundary only and two layers of cells at it: its `whole` tells of the rest. All cells about a node of the first layer
-/// are there. `parent`: receives of each cell the cell of `mesh` that it is a piece of. The mesh must be whole and in one piece.
+/// Refines `times` times, and gives only the part of the result that consists of two layers of cells at the boundary; its `whole` tells of the rest. All cells about a
+/// node of the first layer are in it. `parent`: receives, for each of its cells, the cell of `mesh` that it is a piece of. The mesh must be whole and in one piece.
 mesh::Mesh refined_near_boundary(const mesh::Mesh& mesh, int times, std::vector<int>& parent, Monitor* watch = nullptr);
 
 }  // namespace dotyk::elasticity

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <numeric>
 #include <utility>
 
 #include "algebra/congruent.hpp"
@@ -26,13 +25,9 @@ Share share(const mesh::Mesh& mesh, const MaterialField& material, const std::ve
   std::vector<char> near(static_cast<std::size_t>(mesh.node_count()), 0);
   for (std::size_t i = 0; i < own.size(); ++i)
     if (own[i]) near[numbering.node[i]] = 1;
-  const int per_cell = mesh::nodes_of(mesh.element), dim = mesh.dimension();
-  std::vector<int> cells, place(static_cast<std::size_t>(springs.empty() ? 0 : mesh.cell_count()), -1);
-  for (int c = 0; c < mesh.cell_count(); ++c)
-    if (std::any_of(mesh.cell(c), mesh.cell(c) + per_cell, [&](int node) { return near[node]; })) {
-      if (!place.empty()) place[c] = static_cast<int>(cells.size());
-      cells.push_back(c);
-    }
+  const int dim = mesh.dimension();
+  std::vector<int> cells = mesh::cells_at(mesh, near), place(static_cast<std::size_t>(springs.empty() ? 0 : mesh.cell_count()), -1);
+  for (std::size_t k = 0; k < cells.size() && !place.empty(); ++k) place[cells[k]] = static_cast<int>(k);
   mesh::Submesh part = mesh::submesh(mesh, std::move(cells));
   Share out;
   std::vector<int> fixed, facets;
@@ -126,19 +121,6 @@ algebra::StoredMatrix assembled(std::vector<Cells> bodies) {
   return joined;
 }
 
-/// `order`: of each new node the old one.
-void renumber(mesh::Mesh& mesh, const std::vector<int>& order) {
-  const auto dim = static_cast<std::size_t>(mesh.dimension());
-  std::vector<int> number(order.size());
-  std::vector<double> coordinates(mesh.coordinates.size());
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    number[order[i]] = static_cast<int>(i);
-    std::copy_n(mesh.node(order[i]), dim, coordinates.begin() + static_cast<std::ptrdiff_t>(i * dim));
-  }
-  for (int& node : mesh.cells) node = number[node];
-  mesh.coordinates.swap(coordinates);
-}
-
 class RefinableShare final : public algebra::Refinable {
  public:
   explicit RefinableShare(std::vector<Cells> bodies) : bodies_(std::move(bodies)) {}
@@ -150,11 +132,7 @@ class RefinableShare final : public algebra::Refinable {
       Cells& body = bodies_[b];
       require_memory(refining_bytes(body.mesh), "a share of the refined mesh");
       mesh::Mesh finer = refined(body.mesh);
-      if (body.material.varies()) {
-        std::vector<int> parent(static_cast<std::size_t>(finer.cell_count()));
-        for (std::size_t c = 0; c < parent.size(); ++c) parent[c] = static_cast<int>(c) / (finer.cell_count() / body.mesh.cell_count());
-        body.material = body.material.of(parent);
-      }
+      body.material = of_pieces(body.material, body.mesh, finer);
       coarse[b] = body.mesh.node_count(), nodes += finer.node_count();
       body.mesh = std::move(finer);
     }
@@ -168,22 +146,15 @@ class RefinableShare final : public algebra::Refinable {
     return means;
   }
 
-  std::vector<int> keep(const std::vector<char>& flagged, const std::vector<double>& place) override {
+  std::vector<int> keep(const std::vector<char>& flagged) override {
     std::vector<int> before;
-    int first = 0;
+    auto first = flagged.begin();
     for (Cells& body : bodies_) {
-      const int per_cell = mesh::nodes_of(body.mesh.element), nodes = body.mesh.node_count();
-      std::vector<int> cells;
-      for (int c = 0; c < body.mesh.cell_count(); ++c)
-        if (std::any_of(body.mesh.cell(c), body.mesh.cell(c) + per_cell, [&](int node) { return flagged[static_cast<std::size_t>(first) + node] != 0; })) cells.push_back(c);
-      mesh::Submesh left = mesh::submesh(body.mesh, std::move(cells));
+      const auto end = first + body.mesh.node_count();
+      mesh::Submesh left = mesh::submesh(body.mesh, mesh::cells_at(body.mesh, {first, end}));
       body.mesh = std::move(left.mesh), body.material = body.material.of(left.cell);
-      std::vector<int> order(left.node.size());
-      std::iota(order.begin(), order.end(), 0);
-      std::ranges::stable_sort(order, {}, [&](int node) { return place[static_cast<std::size_t>(first) + left.node[node]]; });
-      renumber(body.mesh, order);
-      for (const int node : order) before.push_back(first + left.node[node]);
-      first += nodes;
+      for (const int node : left.node) before.push_back(static_cast<int>(first - flagged.begin()) + node);
+      first = end;
     }
     return before;
   }

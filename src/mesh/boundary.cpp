@@ -26,13 +26,25 @@ std::vector<Facet> boundary(const Mesh& mesh) {
   return result;
 }
 
-std::vector<char> surrounded_cells(const Mesh& mesh) {
-  if (!mesh.whole) return std::vector<char>(static_cast<std::size_t>(mesh.cell_count()), 1);
-  std::vector<char> at_boundary(static_cast<std::size_t>(mesh.node_count()), 0), cells;
-  for (const Facet f : mesh.whole->boundary)
-    for (int k = 0; k < mesh.topology().nodes_per_facet; ++k) at_boundary[mesh.facet_node(f, k)] = 1;
+std::vector<char> flag_nodes(const Mesh& mesh, const std::vector<Facet>& facets) {
+  std::vector<char> flagged(static_cast<std::size_t>(mesh.node_count()), 0);
+  for (const Facet f : facets)
+    for (int k = 0; k < mesh.topology().nodes_per_facet; ++k) flagged[mesh.facet_node(f, k)] = 1;
+  return flagged;
+}
+
+std::vector<int> cells_at(const Mesh& mesh, const std::vector<char>& flagged) {
+  const int per_cell = nodes_of(mesh.element);
+  std::vector<int> cells;
   for (int c = 0; c < mesh.cell_count(); ++c)
-    cells.push_back(std::any_of(mesh.cell(c), mesh.cell(c) + mesh.topology().nodes, [&](int node) { return at_boundary[node] != 0; }));
+    if (std::any_of(mesh.cell(c), mesh.cell(c) + per_cell, [&](int node) { return flagged[node] != 0; })) cells.push_back(c);
+  return cells;
+}
+
+std::vector<char> surrounded_cells(const Mesh& mesh) {
+  std::vector<char> cells(static_cast<std::size_t>(mesh.cell_count()), !mesh.whole);
+  if (mesh.whole)
+    for (const int c : cells_at(mesh, flag_nodes(mesh, mesh.whole->boundary))) cells[c] = 1;
   return cells;
 }
 

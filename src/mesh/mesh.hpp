@@ -33,7 +33,7 @@ struct Coarser {
 /// What a part of a mesh, the cells near its boundary, knows of the whole.
 struct Whole {
   std::vector<Facet> boundary;      ///< the whole mesh's, by cell; all belong to cells that are here
-  std::vector<int> nodes;           ///< how many the whole mesh has, then each coarser one
+  std::vector<int> nodes;           ///< how many the whole mesh has, then each coarser whole mesh
   std::int64_t cells = 0;           ///< of the whole mesh
 };
 
@@ -77,7 +77,7 @@ struct Mesh {
 /// d/dt of facet_area_vector() of a facet of order 1 where nodes move with the velocity V (node × dimension).
 Point facet_area_derivative(const Mesh& mesh, const std::vector<double>& V, Facet f);
 
-/// The number of nodes of each known coarser mesh, the finest of them first; those of whole meshes.
+/// The number of nodes of each known coarser mesh, the finest of them first; for a part of a mesh, those of the whole meshes.
 std::vector<int> coarser_nodes(const Mesh& mesh);
 
 /// Node → the cells that have it, ascending.
@@ -87,10 +87,16 @@ Buckets cells_of_nodes(const Mesh& mesh);
 /// share a facet, each has one of the others.
 std::vector<int> facet_neighbours(const Mesh& mesh);
 
-/// All boundary facets (those that belong to one cell only), by cell; of a part of a mesh, those of the whole.
+/// All boundary facets (those that belong to one cell only), by cell; for a part of a mesh, those of the whole.
 std::vector<Facet> boundary(const Mesh& mesh);
 
-/// Flags the cells all of whose nodes have all their cells here: of a part of a mesh those at the boundary of the whole, else all.
+/// Flags the nodes of these facets.
+std::vector<char> flag_nodes(const Mesh& mesh, const std::vector<Facet>& facets);
+
+/// The cells that have a flagged node, ascending.
+std::vector<int> cells_at(const Mesh& mesh, const std::vector<char>& flagged);
+
+/// Flags the cells whose nodes have all their cells here: of a part of a mesh those at the boundary of the whole, else all.
 std::vector<char> surrounded_cells(const Mesh& mesh);
 
 /// The boundary facets that `chosen(centre, unit outward normal)` accepts.

@@ -52,7 +52,7 @@ Mesh second_order(Mesh first, Monitor* watch) {
   Mesh mesh;
   mesh.element = second_order(first.element);
   mesh.coordinates = first.coordinates;
-  mesh.parts = std::move(first.parts);
+  mesh.parts = std::move(first.parts), mesh.whole = std::move(first.whole);
   const ElementTopology& t = mesh.topology();
   mesh.cells.resize(static_cast<std::size_t>(first.cell_count()) * t.nodes);
   for (int c = 0; c < first.cell_count(); ++c)

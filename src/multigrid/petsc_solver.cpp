@@ -46,8 +46,8 @@ class PetscSolver final : public algebra::SpdSolver {
     workers_.made();
     alone_.unlock();
     if (!coarser) return;
-    *matrix.coarser = std::shared_ptr<const algebra::SlicedMatrix>(coarser);
     const auto unknowns = static_cast<double>(coarser->diagonal().size());
+    *matrix.coarser = std::shared_ptr<const algebra::SlicedMatrix>(coarser);
     if (!ranks.alone() && !numbering_->hides() && !several_ranks_have_work(unknowns)) *matrix.coarser = matrix.coarser->lower();
     else coarser_numbering_ = coarser->numbering();
   }

@@ -114,10 +114,10 @@ RefinedRows refined_rows(const Ranks& ranks, RefinedShare& share, const std::vec
 }  // namespace
 
 std::unique_ptr<Slice> receive_refined_slice(const Ranks& ranks, const ShareMakers& makers) {
-  std::vector<int> sizes, number, first, place;
-  ranks.receive(0, sizes), ranks.receive(0, number), ranks.receive(0, first), ranks.receive(0, place);
+  std::vector<int> sizes, number, first;
+  ranks.receive(0, sizes), ranks.receive(0, number), ranks.receive(0, first);
   const int times = sizes[0], dimension = sizes[1];
-  RefinedShare share(ranks, makers.refinable(receive_lists(ranks, 0)), dimension, std::move(number), std::move(first), place);
+  RefinedShare share(ranks, makers.refinable(receive_lists(ranks, 0)), dimension, std::move(number), std::move(first));
   for (int k = 0; k < times; ++k) share.refine({});
   std::vector<std::vector<int>> prescribed(static_cast<std::size_t>(times) + 1);
   for (auto& rows : prescribed) ranks.receive(0, rows);
@@ -236,17 +236,17 @@ std::unique_ptr<Slice> RankSlices::share_out(const Refined& matrix) {
   for (int& row : first) row /= d;
   workers_.tell(Task::refined_slice);
   Share own;
-  std::vector<int> own_number, place;
+  std::vector<int> own_number;
   for (int r = ranks.count() - 1; r >= 0; --r) {
     std::vector<char> of_rank(base.slot().size());
     for (std::size_t i = 0; i < of_rank.size(); ++i) of_rank[i] = base.slot()[i] >= base.first(0)[r] && base.slot()[i] < base.first(0)[r + 1];
-    own = matrix.base.share(of_rank), own_number.clear(), place.clear();
-    for (std::size_t k = 0; k < own.unknowns.size(); k += d) own_number.push_back(base.slot()[own.unknowns[k]] / d), place.push_back(own.unknowns[k] / d);
+    own = matrix.base.share(of_rank), own_number.clear();
+    for (std::size_t k = 0; k < own.unknowns.size(); k += d) own_number.push_back(base.slot()[own.unknowns[k]] / d);
     if (r == 0) break;
-    ranks.send(r, std::vector<int>{matrix.times, d}), ranks.send(r, own_number), ranks.send(r, first), ranks.send(r, place);
+    ranks.send(r, std::vector<int>{matrix.times, d}), ranks.send(r, own_number), ranks.send(r, first);
     send(ranks, r, own.lists);
   }
-  RefinedShare share(ranks, matrix.base.makers.refinable(std::move(own.lists)), d, std::move(own_number), std::move(first), place);
+  RefinedShare share(ranks, matrix.base.makers.refinable(std::move(own.lists)), d, std::move(own_number), std::move(first));
   std::vector<std::vector<int>> number(1), prescribed;  // by level
   for (std::size_t i = 0; i < base.slot().size(); i += d) number[0].push_back(base.slot()[i] / d);
   for (int level = matrix.times - 1; level >= 0; --level) number.insert(number.begin(), share.refine(means_by_number(matrix.coarse[level], number.front())));

@@ -30,7 +30,7 @@ std::vector<double> least_beside_others(const std::vector<double>& of_part, bool
 }
 
 Parts parts(const Problem& problem) {
-  if (problem.all_unknowns() > problem.unknowns()) return {1, std::vector<int>(problem.blocks.size(), 0), std::vector<int>(problem.rows(), 0)};
+  if (problem.hides()) return {1, std::vector<int>(problem.blocks.size(), 0), std::vector<int>(problem.rows(), 0)};
   algebra::Triplets joins;
   for (int r = 0; r < problem.rows(); ++r)
     for (algebra::SparseRows::InnerIterator it(problem.B, r); it; ++it)

@@ -85,6 +85,7 @@ struct Problem {
 
   int unknowns() const { return blocks.empty() ? 0 : blocks.back().first + blocks.back().size(); }
   int all_unknowns() const;  ///< hidden ones among them
+  bool hides() const { return all_unknowns() > unknowns(); }
   int rows() const { return static_cast<int>(c.size()); }
   /// The index of the block that an unknown belongs to.
   std::size_t block_of(Eigen::Index unknown) const;

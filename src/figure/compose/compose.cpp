@@ -252,8 +252,7 @@ void move(std::vector<double>& points, const Vec3& by) {
 ScenePicture compose(const Solution& s, const SceneOptions& options) {
   const int dim = s.scene().dimension();
   refuse_missing(options.field, dim);
-  for (const auto& body : s.scene().bodies)
-    if (dim == 2) scene::require_whole(*body, "a picture in the plane");
+  if (dim == 2) scene::require_whole(s.scene(), "a picture in the plane");
   if (dim == 2 && options.explode > 0) throw InputError("'explode' is for scenes in space; this one is 2-D");
   if (dim == 3 && options.trajectories) throw InputError("'trajectories' is for scenes in the plane; this one is in space");
   ScenePicture picture;

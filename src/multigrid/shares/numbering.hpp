@@ -33,7 +33,7 @@ class Numbering {
   int rank_of(int row) const;  ///< of the finest level
 
   int unknown(int row) const { return unknown_[row]; }  ///< of a row of the finest level; −1: it has none
-  /// Have some rows neither an unknown here nor are they idle?
+  /// Are there rows that are not idle, of components whose unknowns have no number here?
   bool hides() const { return slot_.size() + idle_.size() < unknown_.size(); }
 
   /// What a rank has of a vector, by its rows of the finest level: of_unknown(i), and zero at idle ones.

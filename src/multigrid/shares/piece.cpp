@@ -36,7 +36,7 @@ double mean_diagonal(const algebra::SparseMatrix& lower) {
   return sum / static_cast<double>(lower.cols());
 }
 
-/// The rows of `from` that the new numbering puts into the range. Their columns get new numbers, too. Rows that it does not have are those of the identity.
+/// The rows of `from` that the new numbering puts into the range. Their columns get new numbers, too. Rows of the range that `from` lacks are those of the identity.
 Rows some_rows(const algebra::SparseRows& from, const std::vector<int>& number, const Range& range) {
   std::vector<int> origin(static_cast<std::size_t>(range.count()), -1);  // row of `from`
   for (int i = 0; i < from.rows(); ++i)

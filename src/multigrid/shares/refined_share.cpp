@@ -55,20 +55,16 @@ class Questions {
   std::vector<std::vector<int>> asked_, places_;
 };
 
-/// Nodes of the cells once they are cut: the numbers of the nodes whose mean each is, and its place.
-struct FinerNodes {
-  Rows means;
-  std::vector<double> place;
-
-  FinerNodes(const Buckets& here, const std::vector<int>& number, const std::vector<double>& coarse_place) {
-    std::vector<int> row;
-    for (int i = 0; i < here.count(); ++i) {
-      double sum = 0;
-      for (const int p : here[i]) row.push_back(number[p]), sum += coarse_place[p];
-      means.append_columns(row), place.push_back(sum / static_cast<double>(here[i].size()));
-    }
+/// Of each node of the refined cells the numbers of the nodes whose mean it is, ascending.
+Rows by_number(const Buckets& means, const std::vector<int>& number) {
+  Rows all;
+  std::vector<int> row;
+  for (int i = 0; i < means.count(); ++i) {
+    for (const int p : means[i]) row.push_back(number[p]);
+    all.append_columns(row);
   }
-};
+  return all;
+}
 
 /// The first of each rank, and the number of all, from the number of own ones. Collective.
 std::vector<int> firsts(const Ranks& ranks, int own) {
@@ -80,29 +76,26 @@ std::vector<int> firsts(const Ranks& ranks, int own) {
 
 }  // namespace
 
-RefinedShare::RefinedShare(const Ranks& ranks, std::unique_ptr<algebra::Refinable> cells, int dimension, std::vector<int> number, std::vector<int> first,
-                           const std::vector<int>& place)
-    : ranks_(ranks), cells_(std::move(cells)), dimension_(dimension), number_(std::move(number)), place_(place.begin(), place.end()), first_{std::move(first)} {}
+RefinedShare::RefinedShare(const Ranks& ranks, std::unique_ptr<algebra::Refinable> cells, int dimension, std::vector<int> number, std::vector<int> first)
+    : ranks_(ranks), cells_(std::move(cells)), dimension_(dimension), number_(std::move(number)), first_{std::move(first)} {}
 
 std::vector<int> RefinedShare::refine(const Rows& asked) {
-  const auto [means, place] = FinerNodes(cells_->refine(), number_, place_);
+  const Rows means = by_number(cells_->refine(), number_);
   const std::vector<int>& first = first_.front();
   const int begin = first[ranks_.own()], end = first[ranks_.own() + 1];
   const auto decides = [greatest = first_.size() % 2 == 0](std::span<const int> of_node) { return greatest ? of_node.back() : of_node.front(); };
   const auto rank_of = [&](std::span<const int> of_node) { return static_cast<std::size_t>(std::ranges::upper_bound(first, decides(of_node)) - first.begin()) - 1; };
-  std::vector<char> own(place.size());
+  std::vector<char> own(means.starts.size() - 1);
   for (std::size_t i = 0; i < own.size(); ++i) own[i] = decides(columns_of(means, i)) >= begin && decides(columns_of(means, i)) < end;
   std::vector<int> finer = firsts(ranks_, static_cast<int>(std::ranges::count(own, 1)));
 
-  const std::vector<int> before = cells_->keep(own, place);
+  const std::vector<int> before = cells_->keep(own);
   std::vector<int> numbers(before.size() + asked.starts.size() - 1), number(own.size(), -1);
   Rows own_means;
   Questions questions(ranks_);
-  place_.clear();
   for (std::size_t k = 0, next = finer[ranks_.own()]; k < before.size(); ++k) {
     const auto i = static_cast<std::size_t>(before[k]);
     const auto of_node = columns_of(means, i);
-    place_.push_back(place[i]);
     if (own[i]) {
       numbers[k] = number[i] = static_cast<int>(next++);
       own_means.columns.insert(own_means.columns.end(), of_node.begin(), of_node.end());

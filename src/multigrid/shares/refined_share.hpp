@@ -1,4 +1,4 @@
-// Cells that each rank refines itself, and the numbers of their nodes.
+// The cells that a rank refines itself, and how their nodes are numbered over all ranks.
 #pragma once
 
 #include <memory>
@@ -21,15 +21,14 @@ PrescribedBits prescribed_bits(const std::vector<int>& rows, int dimension);
 /// rank that owns a node has all cells about it.
 class RefinedShare {
  public:
-  /// `dimension`: components of a node; `number`: of each node of the cells; `first`: of each rank its first node, and the number of all; `place`: of each node of the cells one in a good order of all
-  /// nodes for sweeps, as the coarse mesh has them.
-  RefinedShare(const Ranks& ranks, std::unique_ptr<algebra::Refinable> cells, int dimension, std::vector<int> number, std::vector<int> first, const std::vector<int>& place);
+  /// `dimension`: components of a node; `number`: of each node of the cells; `first`: of each rank its first node, and the number of all.
+  RefinedShare(const Ranks& ranks, std::unique_ptr<algebra::Refinable> cells, int dimension, std::vector<int> number, std::vector<int> first);
 
   /// Refines once, and keeps the cells about own nodes. `asked`: of any nodes of the finer mesh, the numbers of the nodes whose mean each is. Returns the numbers
   /// of these nodes. Collective.
   std::vector<int> refine(const Rows& asked);
 
-  /// By level, the finest first; the last are those of the constructor.
+  /// The first node of each rank, and the number of all, by level: the finest mesh first, the constructor's last.
   const std::vector<std::vector<int>>& first() const { return first_; }
   /// The rows of P, see OwnFunctions, that lead from the level after `level` to it.
   OwnFunctions functions(int level, const PrescribedBits& prescribed, const PrescribedBits& coarse_prescribed) const;
@@ -41,8 +40,6 @@ class RefinedShare {
   std::unique_ptr<algebra::Refinable> cells_;
   const int dimension_;
   std::vector<int> number_;               ///< of each node of the cells
-  std::vector<double> place_;             ///< the same; that of a node is the mean of those between which it lies: so neighbours of each node are swept in the
-                                          ///< order of the coarse nodes
   std::vector<std::vector<int>> first_;
   std::vector<Rows> means_;               ///< by level, of own nodes: numbers of the level after it
 };

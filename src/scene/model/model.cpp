@@ -2,10 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numeric>
-#include <span>
-#include <stdexcept>
 
 #include "base/error.hpp"
 #include "base/listed.hpp"
@@ -14,12 +10,11 @@
 #include "base/text.hpp"
 #include "elasticity/coarse_functions.hpp"
 #include "elasticity/rigid_modes.hpp"
-#include "elasticity/share.hpp"
 #include "elasticity/weak_motions.hpp"
 #include "multigrid/slices.hpp"
-#include "problem/coarser.hpp"
 #include "problem/contradiction.hpp"
 #include "scene/model/row_builder.hpp"
+#include "scene/model/slices.hpp"
 #include "scene/model/subdomains.hpp"
 
 namespace dotyk::scene {
@@ -94,101 +89,6 @@ void set_load(const Body& body, const Numbering& numbering, problem::Block& bloc
   auto load = elasticity::load(*body.mesh, body.material, body.facet_springs(), body.force, numbering);
   block.f = std::move(load.f);
   block.offset = load.offset + broken_energy(body);
-}
-
-/// What a rank assembles the flagged rows from.
-Share share_of_all(const Model& model, const std::vector<std::vector<elasticity::FacetSpring>>& springs, const std::vector<char>& own) {
-  std::vector<Share> of_bodies;
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const problem::Block& block = model.problem.blocks[b];
-    const std::vector<char> of_body(own.begin() + block.first, own.begin() + block.first + block.size());
-    if (std::ranges::none_of(of_body, [](char flag) { return flag; })) continue;
-    of_bodies.push_back(elasticity::share(*model.bodies[b].mesh, model.bodies[b].material, springs[b], model.numbering[b], of_body));
-    for (int& unknown : of_bodies.back().unknowns) unknown += block.first;
-  }
-  return elasticity::joined(std::move(of_bodies));
-}
-
-/// Calls visit(unknown, unknown) for pairs of nodes of a cell, one unknown of each.
-void each_pair_of_cells(const Model& model, const std::function<void(int, int)>& visit) {
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const mesh::Mesh& mesh = *model.bodies[b].mesh;
-    const elasticity::Numbering& numbering = model.numbering[b];
-    std::vector<int> unknown(static_cast<std::size_t>(mesh.node_count()), -1);  // of each node
-    for (int i = 0; i < numbering.count(); ++i) unknown[numbering.node[i]] = model.problem.blocks[b].first + i;
-    for (int c = 0; c < mesh.cell_count(); ++c)
-      for (int k = 0; k < mesh::nodes_of(mesh.element); ++k)
-        for (int l = 0; l < k; ++l)
-          if (const int i = unknown[mesh.cell(c)[k]], j = unknown[mesh.cell(c)[l]]; i >= 0 && j >= 0) visit(i, j);
-  }
-}
-
-/// For each row of B the unknowns of the coarse bodies that the row's unknowns follow. `coarse`: the functions that lead to these bodies.
-algebra::SparseRows rows_of_coarse(const Model& model, std::span<const algebra::CoarseFunctions> coarse) {
-  const problem::Problem& problem = model.problem;
-  const int d = coarse.front().dimension;
-  std::vector<int> first{0};  // node of each body
-  for (const Body& body : model.bodies) first.push_back(first.back() + body.mesh->node_count());
-  algebra::Triplets entries;
-  for (int r = 0; r < problem.rows(); ++r)
-    for (algebra::SparseRows::InnerIterator it(problem.B, r); it; ++it) {
-      const std::size_t b = problem.block_of(it.col());
-      int node = first[b] + problem.blocks[b].node[it.col() - problem.blocks[b].first];
-      for (const algebra::CoarseFunctions& functions : coarse) node = functions.of(node)[0];
-      entries.emplace_back(r, d * node, 1);
-    }
-  return algebra::from_triplets<algebra::SparseRows>(problem.rows(), d * coarse.back().coarse_nodes(), entries);
-}
-
-/// K of all bodies in slices, refined by the ranks, all of them so many times.
-void assemble_refined_slices(Model& model, int times) {
-  problem::Problem& problem = model.problem;
-  const std::vector<algebra::CoarseFunctions> functions = problem::coarse_functions(problem);
-  if (std::ssize(functions) < times) throw std::logic_error("bodies refined by the ranks, whose coarser meshes are not known");
-  const int d = functions.front().dimension, components = d * functions[times - 1].coarse_nodes();
-  std::vector<algebra::CoarseFunctions> of_base(functions.begin() + times, functions.end());
-  std::vector<int> all(static_cast<std::size_t>(components)), node;
-  std::iota(all.begin(), all.end(), 0);
-  for (const int component : all) node.push_back(component / d);
-  if (!of_base.empty()) of_base.front().row = all, of_base.front().rows = components;
-  const algebra::SparseRows rows = rows_of_coarse(model, std::span(functions).first(static_cast<std::size_t>(times)));
-  const auto each_base = [&](const auto& visit) {  // visit(base, the first of its nodes)
-    int first = 0;
-    for (const Body& body : model.bodies) visit(*body.unrefined, first), first += body.unrefined->mesh->node_count();
-  };
-  constexpr int kCoupled = 4;  // times the work at nodes that rows couple, on the finest mesh
-  const multigrid::Coupling coupling{node, of_base, rows, [&](const auto& visit) {
-    each_base([&](const Unrefined& base, int first) {
-      const int per_cell = mesh::nodes_of(base.mesh->element);
-      for (int c = 0; c < base.mesh->cell_count(); ++c)
-        for (int k = 0; k < per_cell; ++k)
-          for (int l = 0; l < k; ++l) visit(d * (first + base.mesh->cell(c)[k]), d * (first + base.mesh->cell(c)[l]));
-    });
-  }, 1 + (kCoupled >> times)};
-  const auto share = [&](const std::vector<char>& own) {
-    std::vector<Share> of_bodies;
-    each_base([&](const Unrefined& base, int first) {
-      const auto size = static_cast<std::ptrdiff_t>(base.mesh->coordinates.size());
-      const std::vector<char> of_body(own.begin() + d * first, own.begin() + d * first + size);
-      if (std::ranges::none_of(of_body, [](char flag) { return flag; })) return;
-      of_bodies.push_back(elasticity::share(*base.mesh, base.material, {}, elasticity::number(*base.mesh, std::vector<char>(of_body.size(), 0), {}), of_body));
-      for (int& unknown : of_bodies.back().unknowns) unknown += d * first;
-    });
-    return elasticity::joined(std::move(of_bodies));
-  };
-  take_slices(problem, multigrid::make_refined_slices({{coupling, share, {elasticity::assemble_share, elasticity::refinable_share}}, times, functions}));
-}
-
-/// K of all bodies in slices.
-void assemble_slices(Model& model) {
-  if (model.bodies.front().unrefined) return assemble_refined_slices(model, model.bodies.front().unrefined->times);
-  problem::Problem& problem = model.problem;
-  std::vector<std::vector<elasticity::FacetSpring>> springs;
-  for (const Body& body : model.bodies) springs.push_back(body.facet_springs());
-  const std::vector<int> nodes = problem::nodes(problem);
-  const std::vector<algebra::CoarseFunctions> functions = problem::coarse_functions(problem);
-  const multigrid::Coupling coupling{nodes, functions, problem.B, [&](const auto& visit) { each_pair_of_cells(model, visit); }};
-  take_slices(problem, multigrid::make_slices({coupling, [&](const std::vector<char>& own) { return share_of_all(model, springs, own); }, {elasticity::assemble_share, elasticity::refinable_share}}));
 }
 
 algebra::StoredMatrix assemble(const Body& body, const Numbering& numbering) {
@@ -307,27 +207,6 @@ void set_rows(const Scene& scene, const Loading& loading, Model& model) {
 void require_moderate(const problem::Problem& problem, bool cut) {
   if (cut) problem::require_moderate(problem, problem::kMostForceOnSubdomains);
   else if (problem.rows() > 0) problem::require_moderate(problem, problem::kMostForceOnRows);
-}
-
-}  // namespace
-
-namespace {
-
-/// Are the bodies refined by the ranks? Throws where that is not so of all in one way, or where one is not held.
-bool refined_by_ranks(const Model& model) {
-  double all = 0;
-  for (const problem::Block& block : model.problem.blocks) all += block.size() + static_cast<double>(block.hidden);
-  if (all > std::numeric_limits<int>::max()) throw InputError(text("the scene has ", all, " unknowns; at most ", std::numeric_limits<int>::max(), " can be numbered"));
-  const auto times = [](const Body& body) { return body.unrefined ? body.unrefined->times : 0; };
-  const Body& first = model.bodies.front();
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const Body& body = model.bodies[b];
-    if (times(body) != times(first))
-      throw InputError(text("'", first.name, "' has refine = ", times(first), ", '", body.name, "' refine = ", times(body), " (0: it was made before there were several ranks, or without): on several ranks all bodies of a scene have the same"));
-    if (times(body) > 0 && model.problem.blocks[b].kernel.cols() > 0)
-      throw InputError(text("'", body.name, "' is free to move (", listed(texts(model.problem.blocks[b].motions)), "): with refine on several ranks fix, slide or displace must hold it; contact and laws are not enough"));
-  }
-  return times(first) > 0;
 }
 
 }  // namespace

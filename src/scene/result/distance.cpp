@@ -150,8 +150,7 @@ void require_alike(const Scene& a, const Scene& b) {
 }  // namespace
 
 Distance distance(const Solution& solution, const Solution& reference) {
-  for (const Solution* s : {&solution, &reference})
-    for (const auto& body : s->scene().bodies) require_whole(*body, "a distance of solutions");
+  for (const Solution* s : {&solution, &reference}) require_whole(s->scene(), "a distance of solutions");
   require_alike(solution.scene(), reference.scene());
   Distance out;
   Squares energy, volume;

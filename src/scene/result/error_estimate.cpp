@@ -110,7 +110,7 @@ void require_squares(const elasticity::MaterialField& material, int cells, const
 }  // namespace
 
 const ErrorEstimate& Solution::error_estimate() const {
-  for (const auto& body : scene_->bodies) require_whole(*body, "an error estimate");
+  require_whole(*scene_, "an error estimate");
   if (!error_estimate_) error_estimate_ = make_error_estimate();
   return *error_estimate_;
 }

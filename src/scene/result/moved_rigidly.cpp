@@ -32,7 +32,7 @@ std::pair<Vector, double> displacement(const Solution& solution, int body, const
 }  // namespace
 
 std::shared_ptr<Solution> moved_rigidly(const Solution& solution, int body, const RigidMotion& motion) {
-  for (const auto& each : solution.scene().bodies) require_whole(*each, "a solution moved rigidly");
+  require_whole(solution.scene(), "a solution moved rigidly");
   const problem::Problem& problem = solution.model().problem;
   const problem::Block& block = problem.blocks[body];
   if (block.K.rows() == 0) throw InputError("a step that is not the last of its history has no other members; solve up to it");

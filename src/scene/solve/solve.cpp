@@ -234,7 +234,7 @@ class History {
 
   /// The state to go on from: that of a solution with the same rows on the same meshes. Hidden unknowns stay with the slices of the other one.
   std::shared_ptr<const problem::State> state() const {
-    if (!begins() || !start_.coarse || model_.problem.all_unknowns() > model_.problem.unknowns() || !same_rows(*scene_, model_, *start_.coarse)) return nullptr;
+    if (!begins() || !start_.coarse || model_.problem.hides() || !same_rows(*scene_, model_, *start_.coarse)) return nullptr;
     return {start_.coarse, &start_.coarse->result().state};
   }
 

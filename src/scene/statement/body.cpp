@@ -1,7 +1,5 @@
 #include "scene/statement/body.hpp"
 
-#include <numeric>
-
 #include "base/error.hpp"
 #include "base/listed.hpp"
 #include "base/text.hpp"
@@ -35,10 +33,6 @@ void require_one_piece(const mesh::Mesh& mesh, const std::string& name) {
                         "; make each a body of its own (mesh:keep takes cells by their centres), in contact or glued"));
 }
 
-}  // namespace
-
-namespace {
-
 /// Throws where these cannot make a body.
 void require_sound(const mesh::Mesh& mesh, const elasticity::MaterialField& material, const std::string& name) {
   mesh::check(mesh, "body '" + name + "'");
@@ -64,25 +58,20 @@ std::shared_ptr<Body> make_body(std::string name, std::shared_ptr<const mesh::Me
 
 std::shared_ptr<Body> make_refined_body(std::string name, std::shared_ptr<const mesh::Mesh> mesh, elasticity::MaterialField material, int times,
                                         const elasticity::VectorField& force, Monitor& monitor) {
-  if (times == 0) return make_body(std::move(name), std::move(mesh), std::move(material), force);
   require_sound(*mesh, material, name);
-  std::vector<int> parent;
   if (multigrid::count_ranks() == 1) {
-    parent.resize(static_cast<std::size_t>(mesh->cell_count()));
-    std::iota(parent.begin(), parent.end(), 0);
-    auto finer = mesh;
     for (int k = 0; k < times; ++k) {
-      finer = std::make_shared<const mesh::Mesh>(elasticity::refined(*finer, &monitor));
-      std::vector<int> of_finer;
-      for (const int p : parent) of_finer.insert(of_finer.end(), mesh->dimension() == 2 ? 4 : 8, p);
-      parent.swap(of_finer);
+      const auto finer = std::make_shared<const mesh::Mesh>(elasticity::refined(*mesh, &monitor));
+      material = elasticity::of_pieces(material, *mesh, *finer);
+      mesh = finer;
     }
-    return make_body(std::move(name), finer, material.of(parent), force);
+    return make_body(std::move(name), std::move(mesh), std::move(material), force);
   }
   auto body = std::make_shared<Body>();
   body->name = std::move(name);
   body->unrefined = std::make_shared<const Unrefined>(Unrefined{mesh, material, times});
   if (force) require_whole(*body, "a force per volume");
+  std::vector<int> parent;
   body->mesh = std::make_shared<const mesh::Mesh>(elasticity::refined_near_boundary(*mesh, times, parent, &monitor));
   mesh::check(*body->mesh, "body '" + body->name + "'");
   body->material = material.of(parent);

@@ -136,7 +136,7 @@ struct Body {
   std::shared_ptr<const Body> origin;
 
   int dimension() const { return mesh->dimension(); }
-  /// Of the whole mesh.
+  /// How many nodes and cells the whole mesh has.
   int node_count() const { return mesh->whole ? mesh->whole->nodes.front() : mesh->node_count(); }
   std::int64_t cell_count() const { return mesh->whole ? mesh->whole->cells : mesh->cell_count(); }
   /// Components of nodes that only the ranks have.
@@ -161,8 +161,8 @@ std::shared_ptr<Body> make_body(std::string name, std::shared_ptr<const mesh::Me
                                 elasticity::MaterialField material,
                                 const elasticity::VectorField& force);
 
-/// A body of the mesh refined so many times, its material that of the cells of `mesh`. Where there are several ranks they refine it; this one then has the cells near
-/// the boundary.
+/// A body whose mesh is `mesh` refined `times` ≥ 1 times; `material` is given for the cells of `mesh`. On one rank the body has the whole refined mesh. On several
+/// ranks they refine it when it is solved, and the body has the cells near the boundary.
 std::shared_ptr<Body> make_refined_body(std::string name, std::shared_ptr<const mesh::Mesh> mesh, elasticity::MaterialField material, int times,
                                         const elasticity::VectorField& force, Monitor& monitor);
 

@@ -29,6 +29,10 @@ int find_root(const std::vector<T>& list, const void* wanted) {
 int Scene::index_of(const Body* body) const { return find_root(bodies, root(body)); }
 int Scene::index_of(const Contact& contact) const { return find_root(contacts, root(&contact)); }
 
+void require_whole(const Scene& scene, const std::string& what) {
+  for (const auto& body : scene.bodies) require_whole(*body, what);
+}
+
 std::shared_ptr<Scene> make_scene(std::vector<std::shared_ptr<Body>> bodies) {
   if (bodies.empty()) throw InputError("a scene needs at least one body");
   for (std::size_t i = 0; i < bodies.size(); ++i) {

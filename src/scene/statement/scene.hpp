@@ -79,6 +79,9 @@ struct Scene {
   int index_of(const Contact& contact) const;
 };
 
+/// require_whole() of all bodies.
+void require_whole(const Scene& scene, const std::string& what);
+
 /// Throws InputError for no bodies, a body twice, two of one name, or mixed dimensions.
 std::shared_ptr<Scene> make_scene(std::vector<std::shared_ptr<Body>> bodies);
 

@@ -42,11 +42,9 @@ struct Free {
 
 /// Flags of the nodes of parts.
 std::vector<char> nodes_of(const mesh::Mesh& mesh, const std::vector<scene::Part>& parts) {
-  std::vector<char> out(mesh.node_count(), 0);
-  for (const scene::Part& part : parts)
-    for (const mesh::Facet f : part.facets)
-      for (int k = 0; k < mesh.topology().nodes_per_facet; ++k) out[mesh.facet_node(f, k)] = 1;
-  return out;
+  std::vector<mesh::Facet> facets;
+  for (const scene::Part& part : parts) facets.insert(facets.end(), part.facets.begin(), part.facets.end());
+  return mesh::flag_nodes(mesh, facets);
 }
 
 /// What is free of each node of a body: in the plane none of its boundary, in space not what would lead off its sides.

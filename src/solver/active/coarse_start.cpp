@@ -52,7 +52,7 @@ CoarseStart coarse_start(const Problem& problem, const Pdas& settings, Monitor& 
     begun.from = before.state, begun.stiffness = before.stiffness, begun.nested = false, begun.rough = true;
     begun.tol = std::max(begun.tol, kTolerance);
     meshes = before.meshes + 1;
-    const bool small = part.all_unknowns() <= kSmall && part.all_unknowns() == part.unknowns();
+    const bool small = part.unknowns() <= kSmall && !part.hides();
     result = small ? solve(part, {}, {}, inner) : solve(part, begun, inner);
   } catch (const Interrupted&) {
     throw;

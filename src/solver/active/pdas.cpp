@@ -41,9 +41,6 @@ std::string begin(SetIteration& it) {
   return how.empty() ? "" : ", begun with " + how;
 }
 
-/// Rescues need all unknowns here.
-bool hides(const problem::Problem& problem) { return problem.all_unknowns() > problem.unknowns(); }
-
 bool comes_to_no_rest(End end) { return end == End::cycle || end == End::singular || end == End::exhausted; }
 
 /// What made Newton steps end, as a rescue's reason begins.
@@ -53,10 +50,10 @@ std::string cause(const SetIteration& it, End end) {
   return text("no confirmed active set in ", it.result.iterations, " iterations");
 }
 
-/// Newton steps; where they do not come to rest, from where the rescues end, one after the other. A rescue begins while steps are left,
+/// Newton steps; where they do not come to rest, and no unknowns are hidden, from where the rescues end, one after the other. A rescue begins while steps are left,
 /// and has steps of its own to be confirmed.
 End iterate_and_rescue(SetIteration& it, bool& inside, std::string& rescued) {
-  if (!it.problem.friction.empty() || it.settings.rough || hides(it.problem)) return it.iterate(it.left(), it.left());
+  if (!it.problem.friction.empty() || it.settings.rough || it.problem.hides()) return it.iterate(it.left(), it.left());
   End end = it.iterate(it.left(), kPatience);
   for (const Rescue rescue : kRescues) {
     if (it.left() <= 0 || !comes_to_no_rest(end)) break;
@@ -83,7 +80,7 @@ void conclude(SetIteration& it, End end, bool inside, const std::string& rescued
     case End::cycle: {
       const std::string why = "active sets repeated at " + it.places();
       result.reason = "active sets repeat at " + it.places();
-      if (!it.settings.rough && !hides(it.problem) && !by_active_set(it, why)) by_proximal(it, why);
+      if (!it.settings.rough && !it.problem.hides() && !by_active_set(it, why)) by_proximal(it, why);
       break;
     }
     case End::exhausted:

@@ -66,7 +66,8 @@ std::shared_ptr<Body> make_body(Call& call) {
   elasticity::VectorField force;
   if (call.has("force")) force = vector_field(call.field("force", mesh->dimension()), mesh->dimension());
   const auto times = call.has("refine") ? call.integer("refine") : 0;
-  if (times > 0 && multigrid::count_ranks() == 1) require_room_to_refine(*mesh, times);
+  if (times == 0) return scene::make_body(call.text("name"), mesh, material_field(call, *material, *mesh), force);
+  if (multigrid::count_ranks() == 1) require_room_to_refine(*mesh, times);
   Watch watch(call.state(), "refining");
   return scene::make_refined_body(call.text("name"), mesh, material_field(call, *material, *mesh), static_cast<int>(times), force, watch);
 }

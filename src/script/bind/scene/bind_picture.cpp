@@ -97,8 +97,7 @@ ScenePicture picture_of(Call& call, bool alone) {
   picture.edges = read_edges(call, map ? figure::MeshEdges::off : figure::MeshEdges::automatic);
   if (call.has("view") && plane(picture)) throw InputError("'view' is for scenes in space; this one is 2-D (try 'window')");
   picture.view_from = read_direction(call, "view");
-  for (const auto& body : s->scene().bodies)
-    if (call.has("cut")) scene::require_whole(*body, "a cut");
+  if (call.has("cut")) scene::require_whole(s->scene(), "a cut");
   read_window(call, picture), read_cut(call, picture), read_notes(call, picture);
   if (picture.isolines && !plane(picture)) throw InputError("'isolines' are for the plane and for maps; this picture is in space");
   return picture;

@@ -1,0 +1,128 @@
+#include "scene/model/slices.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <numeric>
+#include <span>
+#include <stdexcept>
+
+#include "base/error.hpp"
+#include "base/listed.hpp"
+#include "base/text.hpp"
+#include "elasticity/share.hpp"
+#include "multigrid/slices.hpp"
+#include "problem/coarser.hpp"
+
+namespace dotyk::scene {
+
+bool refined_by_ranks(const Model& model) {
+  double all = 0;
+  for (const problem::Block& block : model.problem.blocks) all += block.size() + static_cast<double>(block.hidden);
+  if (all > std::numeric_limits<int>::max()) throw InputError(text("the scene has ", all, " unknowns; at most ", std::numeric_limits<int>::max(), " can be numbered"));
+  const auto times = [](const Body& body) { return body.unrefined ? body.unrefined->times : 0; };
+  const Body& first = model.bodies.front();
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const Body& body = model.bodies[b];
+    if (times(body) != times(first))
+      throw InputError(text("'", first.name, "' has refine = ", times(first), ", '", body.name, "' refine = ", times(body),
+                            " (0: it was made before there were several ranks, or without): on several ranks all bodies of a scene have the "
+                            "same"));
+    if (times(body) > 0 && model.problem.blocks[b].kernel.cols() > 0)
+      throw InputError(text("'", body.name, "' is free to move (", listed(texts(model.problem.blocks[b].motions)),
+                            "): with refine on several ranks fix, slide or displace must hold it; contact and laws are not enough"));
+  }
+  return times(first) > 0;
+}
+
+namespace {
+
+constexpr multigrid::ShareMakers kMakers{elasticity::assemble_share, elasticity::refinable_share};
+
+/// What the ranks get of a body.
+struct Source {
+  const mesh::Mesh& mesh;
+  const elasticity::MaterialField& material;
+  std::vector<elasticity::FacetSpring> springs;
+  const elasticity::Numbering& numbering;
+  int first;  ///< unknown, among those of all bodies
+};
+
+/// What a rank makes the flagged rows from.
+Share share_of_all(const std::vector<Source>& sources, const std::vector<char>& own) {
+  std::vector<Share> of_bodies;
+  for (const Source& source : sources) {
+    const auto begin = own.begin() + source.first;
+    const std::vector<char> of_body(begin, begin + source.numbering.count());
+    if (std::ranges::none_of(of_body, [](char flag) { return flag; })) continue;
+    of_bodies.push_back(elasticity::share(source.mesh, source.material, source.springs, source.numbering, of_body));
+    for (int& unknown : of_bodies.back().unknowns) unknown += source.first;
+  }
+  return elasticity::joined(std::move(of_bodies));
+}
+
+/// Calls visit(unknown, unknown) for pairs of nodes of a cell, one unknown of each.
+void each_pair_of_cells(const std::vector<Source>& sources, const std::function<void(int, int)>& visit) {
+  for (const Source& source : sources) {
+    const mesh::Mesh& mesh = source.mesh;
+    std::vector<int> unknown(static_cast<std::size_t>(mesh.node_count()), -1);  // of each node
+    for (int i = 0; i < source.numbering.count(); ++i) unknown[source.numbering.node[i]] = source.first + i;
+    for (int c = 0; c < mesh.cell_count(); ++c)
+      for (int k = 0; k < mesh::nodes_of(mesh.element); ++k)
+        for (int l = 0; l < k; ++l)
+          if (const int i = unknown[mesh.cell(c)[k]], j = unknown[mesh.cell(c)[l]]; i >= 0 && j >= 0) visit(i, j);
+  }
+}
+
+/// For each row of B an unknown of each coarse node that the row's unknowns follow. `coarse`: the functions that lead to the coarse bodies.
+algebra::SparseRows rows_of_coarse(const Model& model, std::span<const algebra::CoarseFunctions> coarse) {
+  const problem::Problem& problem = model.problem;
+  const int d = coarse.front().dimension;
+  std::vector<int> first{0};  // node of each body
+  for (const Body& body : model.bodies) first.push_back(first.back() + body.mesh->node_count());
+  algebra::Triplets entries;
+  for (int r = 0; r < problem.rows(); ++r)
+    for (algebra::SparseRows::InnerIterator it(problem.B, r); it; ++it) {
+      const std::size_t b = problem.block_of(it.col());
+      int node = first[b] + problem.blocks[b].node[it.col() - problem.blocks[b].first];
+      for (const algebra::CoarseFunctions& functions : coarse) node = functions.of(node)[0];
+      entries.emplace_back(r, d * node, 1);
+    }
+  return algebra::from_triplets<algebra::SparseRows>(problem.rows(), d * coarse.back().coarse_nodes(), entries);
+}
+
+/// K after the ranks have refined the bodies, all of them so many times.
+std::shared_ptr<const algebra::SlicedMatrix> refined_slices(const Model& model, const std::vector<algebra::CoarseFunctions>& functions, int times) {
+  if (std::ssize(functions) < times) throw std::logic_error("bodies refined by the ranks, whose coarser meshes are not known");
+  std::vector<elasticity::Numbering> numbering;  // of all components of the coarse bodies' nodes
+  for (const Body& body : model.bodies) numbering.push_back(elasticity::number(*body.unrefined->mesh, std::vector<char>(body.unrefined->mesh->coordinates.size(), 0), {}));
+  std::vector<Source> sources;
+  for (std::size_t b = 0, first = 0; b < numbering.size(); first += static_cast<std::size_t>(numbering[b].count()), ++b)
+    sources.push_back({*model.bodies[b].unrefined->mesh, model.bodies[b].unrefined->material, {}, numbering[b], static_cast<int>(first)});
+  const int d = functions.front().dimension, components = d * functions[times - 1].coarse_nodes();
+  std::vector<int> all(static_cast<std::size_t>(components)), node;
+  std::iota(all.begin(), all.end(), 0);
+  for (const int component : all) node.push_back(component / d);
+  std::vector<algebra::CoarseFunctions> of_coarse(functions.begin() + times, functions.end());
+  if (!of_coarse.empty()) of_coarse.front().row = all, of_coarse.front().rows = components;
+  const algebra::SparseRows rows = rows_of_coarse(model, std::span(functions).first(static_cast<std::size_t>(times)));
+  constexpr int kCoupled = 4;  // times the work at nodes that rows couple, on the finest mesh
+  const multigrid::Coupling coupling{node, of_coarse, rows, [&](const auto& visit) { each_pair_of_cells(sources, visit); }, 1 + (kCoupled >> times)};
+  return multigrid::make_refined_slices({{coupling, [&](const std::vector<char>& own) { return share_of_all(sources, own); }, kMakers}, times, functions});
+}
+
+}  // namespace
+
+void assemble_slices(Model& model) {
+  problem::Problem& problem = model.problem;
+  const std::vector<algebra::CoarseFunctions> functions = problem::coarse_functions(problem);
+  if (const auto& coarse = model.bodies.front().unrefined) return take_slices(problem, refined_slices(model, functions, coarse->times));
+  std::vector<Source> sources;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b)
+    sources.push_back({*model.bodies[b].mesh, model.bodies[b].material, model.bodies[b].facet_springs(), model.numbering[b], problem.blocks[b].first});
+  const std::vector<int> nodes = problem::nodes(problem);
+  const multigrid::Coupling coupling{nodes, functions, problem.B, [&](const auto& visit) { each_pair_of_cells(sources, visit); }};
+  take_slices(problem, multigrid::make_slices({coupling, [&](const std::vector<char>& own) { return share_of_all(sources, own); }, kMakers}));
+}
+
+}  // namespace dotyk::scene
