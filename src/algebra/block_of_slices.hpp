@@ -32,6 +32,7 @@ class BlockOfSlices final : public SlicedMatrix {
 
   std::shared_ptr<Vectors> vectors(const std::vector<int>&) const override { throw std::logic_error("a block of slices has no vectors"); }
   bool holds(const Vectors&) const override { return false; }
+  void add_load(Field&) const override { throw std::logic_error("a block of slices has no vectors"); }
   void take_product(const LongField&, bool, Field&) const override { throw std::logic_error("a block of slices has no vectors"); }
 
   const SlicedMatrix& whole() const { return *whole_; }

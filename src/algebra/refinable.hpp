@@ -16,8 +16,12 @@ class Refinable {
   virtual Buckets refine() = 0;
   /// Keeps the cells that have a flagged node. Returns, for each node left, its number before; ascending.
   virtual std::vector<int> keep(const std::vector<char>& flagged) = 0;
-  /// The lower triangle of the stiffness of these cells, node × dimension without the components flagged in `fixed`. The cells are gone then.
-  virtual StoredMatrix assemble(const std::vector<char>& fixed) = 0;
+  struct Assembled {
+    StoredMatrix lower;        ///< triangle of the stiffness
+    std::vector<double> load;  ///< of forces per volume; empty: there are none
+  };
+  /// Of these cells, node × dimension without the components flagged in `fixed`. The cells are gone then.
+  virtual Assembled assemble(const std::vector<char>& fixed) = 0;
 };
 
 }  // namespace dotyk::algebra

@@ -30,6 +30,8 @@ class SlicedMatrix {
   virtual bool holds(const Vectors& vectors) const = 0;  ///< do they lie there?
   /// from −= A u for such vectors: in extended precision, or in double precision with u.high alone.
   virtual void take_product(const LongField& u, bool precisely, Field& from) const = 0;
+  /// Adds, to such a vector, the load that was assembled with the matrix: of hidden unknowns no process has all numbers. Nothing where there was none.
+  virtual void add_load(Field& to) const = 0;
 
   const Vector& diagonal() const { return diagonal_; }
   int most_entries() const { return most_entries_; }  ///< at least as many as any row has

@@ -169,15 +169,24 @@ algebra::StoredMatrix assemble(const Mesh& mesh, const MaterialField& material, 
   dispatch(mesh.element, [&]<class E>() {
     add_stiffness<E>(mesh, material, assembly);
   });
+  for (const auto& entry : spring_stiffness(mesh, springs, numbering)) assembly.K.coeffRef(entry.row(), entry.col()) += entry.value();
+  return std::move(assembly.K);
+}
+
+algebra::Triplets spring_stiffness(const Mesh& mesh, const std::vector<FacetSpring>& springs, const Numbering& numbering) {
+  algebra::Triplets entries;
+  const int dim = mesh.dimension();
   for (const FacetSpring& spring : springs)
     for_each_facet_point(mesh, spring.facet, [&](const FacetPoint& p) {
-      const auto& k = spring.stiffness[p.index];
       for (int a = 0; a < p.nodes; ++a)
         for (int b = 0; b <= a; ++b)
-          assembly.add(mesh.facet_node(spring.facet, a), mesh.facet_node(spring.facet, b),
-                       [&](int i, int j) { return i == j ? k[i] * p.shape[a] * p.shape[b] * p.measure : 0.0; });
+          for (int i = 0; i < dim; ++i) {
+            const auto unknown = [&](int k) { return numbering.unknown[static_cast<std::size_t>(mesh.facet_node(spring.facet, k)) * dim + i]; };
+            const int row = std::max(unknown(a), unknown(b)), column = std::min(unknown(a), unknown(b));
+            if (column >= 0) entries.emplace_back(row, column, spring.stiffness[p.index][i] * p.shape[a] * p.shape[b] * p.measure);
+          }
     });
-  return std::move(assembly.K);
+  return entries;
 }
 
 Load load(const Mesh& mesh, const MaterialField& material, const std::vector<FacetSpring>& springs, const std::vector<double>& force,

@@ -60,6 +60,9 @@ double matrix_bytes(const mesh::Mesh& mesh);
 /// added in place (no triplets).
 algebra::StoredMatrix assemble(const mesh::Mesh& mesh, const MaterialField& material, const std::vector<FacetSpring>& springs, const Numbering& numbering);
 
+/// What springs add to K: entries of the lower triangle, some places several times.
+algebra::Triplets spring_stiffness(const mesh::Mesh& mesh, const std::vector<FacetSpring>& springs, const Numbering& numbering);
+
 /// `force`: nodal loads, node × dimension; empty: none.
 Load load(const mesh::Mesh& mesh, const MaterialField& material, const std::vector<FacetSpring>& springs, const std::vector<double>& force,
           const Numbering& numbering);

@@ -56,13 +56,6 @@ mesh::Mesh refined(const mesh::Mesh& mesh, Monitor* watch) {
   return pieces;
 }
 
-MaterialField of_pieces(const MaterialField& material, const mesh::Mesh& mesh, const mesh::Mesh& finer) {
-  const int each = finer.cell_count() / mesh.cell_count();
-  std::vector<int> whole(static_cast<std::size_t>(material.varies() ? finer.cell_count() : 0));
-  for (std::size_t c = 0; c < whole.size(); ++c) whole[c] = static_cast<int>(c) / each;
-  return material.of(whole);
-}
-
 double refining_bytes(const mesh::Mesh& mesh) {
   const double pieces = mesh.dimension() == 2 ? 4 : 8;
   return 2 * pieces * (4.0 * static_cast<double>(mesh.cells.size()) + 8.0 * static_cast<double>(mesh.coordinates.size()));

@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "base/monitor.hpp"
-#include "elasticity/material.hpp"
 #include "mesh/mesh.hpp"
 
 namespace dotyk::elasticity {
@@ -13,8 +12,14 @@ namespace dotyk::elasticity {
 /// `watch`: asked between the steps whether to stop; Interrupted is thrown then.
 mesh::Mesh refined(const mesh::Mesh& mesh, Monitor* watch = nullptr);
 
-/// The material of a mesh's cells as that of their pieces, where `finer` is the mesh refined once.
-MaterialField of_pieces(const MaterialField& material, const mesh::Mesh& mesh, const mesh::Mesh& finer);
+/// What is known of a mesh's cells, a MaterialField or a LinearForce, of their pieces, where `finer` is the mesh refined once.
+template <class Field>
+Field of_pieces(const Field& field, const mesh::Mesh& mesh, const mesh::Mesh& finer) {
+  const int each = finer.cell_count() / mesh.cell_count();
+  std::vector<int> whole(static_cast<std::size_t>(field.varies() ? finer.cell_count() : 0));
+  for (std::size_t c = 0; c < whole.size(); ++c) whole[c] = static_cast<int>(c) / each;
+  return field.of(whole);
+}
 
 /// About how many bytes refined() needs while it works.
 double refining_bytes(const mesh::Mesh& mesh);

@@ -66,15 +66,14 @@ Motion RigidFrame::motion(const Vector& c, double noise) const {
   return motion;
 }
 
-RigidModes rigid_modes(const Mesh& mesh, const Numbering& numbering,
-                       const std::vector<FacetSpring>& springs) {
+RigidModes rigid_modes(const Mesh& mesh, const Numbering& numbering, const std::vector<FacetSpring>& springs, const Mesh* sprung) {
   const RigidFrame frame(mesh);
   std::vector<RigidFrame::Row> held;
   for (std::size_t k = 0; k < numbering.unknown.size(); ++k)
     if (numbering.unknown[k] < 0)
       held.push_back(frame.row(mesh, k));
   for (const FacetSpring& spring : springs)
-    for_each_facet_point(mesh, spring.facet, [&](const FacetPoint& p) {
+    for_each_facet_point(sprung ? *sprung : mesh, spring.facet, [&](const FacetPoint& p) {
       for (int i = 0; i < frame.dimension; ++i)
         if (spring.stiffness[p.index][i] > 0) held.push_back(frame.row(p.x.data(), i));
     });

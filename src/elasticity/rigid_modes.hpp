@@ -52,9 +52,8 @@ struct RigidModes {
 };
 
 /// From geometry and supports alone, exactly: the motions that vanish on every prescribed
-/// component and wherever a spring acts.
-RigidModes rigid_modes(const mesh::Mesh& mesh, const Numbering& numbering,
-                       const std::vector<FacetSpring>& springs);
+/// component and wherever a spring acts. `sprung`: the mesh that the springs are on; null: the same.
+RigidModes rigid_modes(const mesh::Mesh& mesh, const Numbering& numbering, const std::vector<FacetSpring>& springs, const mesh::Mesh* sprung = nullptr);
 
 /// All rigid motions, 3 or 6, on the unknowns, whatever holds the body. `unknown` as in Numbering, which has so many of them.
 algebra::DenseMatrix all_rigid_motions(const mesh::Mesh& mesh, const std::vector<int>& unknown, int count);

@@ -15,38 +15,29 @@ namespace dotyk::elasticity {
 namespace {
 
 // The places of the lists. The first ones are the material's.
-enum Whole { kElement = MaterialField::kWholeLists, kCells, kFixed, kSpringFacets };
-enum Real { kCoordinates = MaterialField::kRealLists, kSprings };
+enum Whole { kElement = MaterialField::kWholeLists, kCells, kFixed, kForceKind };
+enum Real { kCoordinates = MaterialField::kRealLists, kForce };
 
 }  // namespace
 
-Share share(const mesh::Mesh& mesh, const MaterialField& material, const std::vector<FacetSpring>& springs, const Numbering& numbering,
-            const std::vector<char>& own) {
+Share share(const mesh::Mesh& mesh, const MaterialField& material, const LinearForce& force, const Numbering& numbering, const std::vector<char>& own) {
   std::vector<char> near(static_cast<std::size_t>(mesh.node_count()), 0);
   for (std::size_t i = 0; i < own.size(); ++i)
     if (own[i]) near[numbering.node[i]] = 1;
-  const int dim = mesh.dimension();
-  std::vector<int> cells = mesh::cells_at(mesh, near), place(static_cast<std::size_t>(springs.empty() ? 0 : mesh.cell_count()), -1);
-  for (std::size_t k = 0; k < cells.size() && !place.empty(); ++k) place[cells[k]] = static_cast<int>(k);
-  mesh::Submesh part = mesh::submesh(mesh, std::move(cells));
+  mesh::Submesh part = mesh::submesh(mesh, mesh::cells_at(mesh, near));
   Share out;
-  std::vector<int> fixed, facets;
-  std::vector<double> stiffness;
+  std::vector<int> fixed;
   for (const int node : part.node)
-    for (int i = 0; i < dim; ++i) {
+    for (int i = 0, dim = mesh.dimension(); i < dim; ++i) {
       const int unknown = numbering.unknown[static_cast<std::size_t>(node) * dim + i];
       fixed.push_back(unknown < 0);
       if (unknown >= 0) out.unknowns.push_back(unknown);
     }
-  for (const FacetSpring& spring : springs)
-    if (const int cell = place[spring.facet.cell]; cell >= 0) {
-      facets.insert(facets.end(), {cell, spring.facet.local});
-      for (const auto& at : spring.stiffness) stiffness.insert(stiffness.end(), at.begin(), at.end());
-    }
   out.lists = material.of(part.cell).lists();
+  Lists of_force = force.of(part.cell).lists();
   const auto add = [](auto& to, auto&&... lists) { (to.push_back(std::move(lists)), ...); };
-  add(out.lists.whole, std::vector{static_cast<int>(mesh.element)}, std::move(part.mesh.cells), std::move(fixed), std::move(facets));
-  add(out.lists.real, std::move(part.mesh.coordinates), std::move(stiffness));
+  add(out.lists.whole, std::vector{static_cast<int>(mesh.element)}, std::move(part.mesh.cells), std::move(fixed), std::move(of_force.whole[0]));
+  add(out.lists.real, std::move(part.mesh.coordinates), std::move(of_force.real[0]));
   return out;
 }
 
@@ -69,7 +60,7 @@ namespace {
 struct Cells {
   mesh::Mesh mesh;
   MaterialField material;
-  std::vector<FacetSpring> springs;
+  LinearForce force;
   std::vector<char> fixed;  ///< node × dimension
 };
 
@@ -88,15 +79,7 @@ std::vector<Cells> cells_of(Lists lists) {
     cells.mesh.element = static_cast<mesh::Element>(body.whole[kElement][0]);
     cells.mesh.coordinates.swap(body.real[kCoordinates]), cells.mesh.cells.swap(body.whole[kCells]);
     cells.fixed.assign(body.whole[kFixed].begin(), body.whole[kFixed].end());
-    const std::vector<int>& facets = body.whole[kSpringFacets];
-    for (std::size_t f = 0; f < facets.size(); f += 2) {
-      FacetSpring& spring = cells.springs.emplace_back(FacetSpring{{facets[f], facets[f + 1]}, {}});
-      const auto points = static_cast<std::size_t>(facet_points(cells.mesh));
-      for (std::size_t q = 0; q < points; ++q) {
-        const double* at = body.real[kSprings].data() + (f / 2 * points + q) * 3;
-        spring.stiffness.push_back({at[0], at[1], at[2]});
-      }
-    }
+    cells.force = {body.whole[kForceKind], std::move(body.real[kForce])};
   }
   return all;
 }
@@ -106,7 +89,7 @@ algebra::StoredMatrix assembled(std::vector<Cells> bodies) {
   std::vector<algebra::StoredMatrix> blocks;
   for (Cells& body : bodies) {
     require_memory(2 * matrix_bytes(body.mesh), "a share of the stiffness");
-    blocks.push_back(assemble(body.mesh, body.material, body.springs, number(body.mesh, body.fixed, {})));
+    blocks.push_back(assemble(body.mesh, body.material, {}, number(body.mesh, body.fixed, {})));
     body = {};
   }
   if (blocks.size() == 1) return std::move(blocks[0]);
@@ -132,7 +115,7 @@ class RefinableShare final : public algebra::Refinable {
       Cells& body = bodies_[b];
       require_memory(refining_bytes(body.mesh), "a share of the refined mesh");
       mesh::Mesh finer = refined(body.mesh);
-      body.material = of_pieces(body.material, body.mesh, finer);
+      body.material = of_pieces(body.material, body.mesh, finer), body.force = of_pieces(body.force, body.mesh, finer);
       coarse[b] = body.mesh.node_count(), nodes += finer.node_count();
       body.mesh = std::move(finer);
     }
@@ -152,25 +135,37 @@ class RefinableShare final : public algebra::Refinable {
     for (Cells& body : bodies_) {
       const auto end = first + body.mesh.node_count();
       mesh::Submesh left = mesh::submesh(body.mesh, mesh::cells_at(body.mesh, {first, end}));
-      body.mesh = std::move(left.mesh), body.material = body.material.of(left.cell);
+      body.mesh = std::move(left.mesh), body.material = body.material.of(left.cell), body.force = body.force.of(left.cell);
       for (const int node : left.node) before.push_back(static_cast<int>(first - flagged.begin()) + node);
       first = end;
     }
     return before;
   }
 
-  algebra::StoredMatrix assemble(const std::vector<char>& fixed) override {
-    std::size_t first = 0;
+  Assembled assemble(const std::vector<char>& fixed) override {
+    auto first = fixed.begin();
     for (Cells& body : bodies_) {
-      const std::size_t size = body.mesh.coordinates.size();
-      body.fixed.assign(fixed.begin() + static_cast<std::ptrdiff_t>(first), fixed.begin() + static_cast<std::ptrdiff_t>(first + size));
-      first += size;
+      const auto end = first + std::ssize(body.mesh.coordinates);
+      body.fixed.assign(first, end), first = end;
     }
-    return assembled(std::move(bodies_));
+    std::vector<double> load = this->load();
+    return {assembled(std::move(bodies_)), std::move(load)};
   }
 
  private:
-  std::vector<Cells> bodies_;  // without springs
+  std::vector<double> load() const {
+    std::vector<double> all;
+    if (std::ranges::none_of(bodies_, [](const Cells& body) { return body.force.any(); })) return all;
+    for (const Cells& body : bodies_) {
+      std::vector<double> nodal(body.mesh.coordinates.size(), 0.0);
+      if (body.force.any()) add_body_force(body.mesh, [&](const CellPoint& p) { return body.force.at(p.cell, p.x); }, nodal);
+      for (std::size_t k = 0; k < nodal.size(); ++k)
+        if (!body.fixed[k]) all.push_back(nodal[k]);
+    }
+    return all;
+  }
+
+  std::vector<Cells> bodies_;
 };
 
 }  // namespace

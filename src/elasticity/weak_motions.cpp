@@ -199,12 +199,13 @@ struct Motions {
 /// FᵀKF, where F has the motions of row(). Rigid motions do no work in a cell that is free, and a dilatation strains such a cell uniformly: Volumes::dilated is its energy. Only
 /// cells with prescribed components, where F is zero, need their stiffness. Of curved or distorted cells the volume is approximate.
 template <class E>
-DenseMatrix energies(const mesh::Mesh& mesh, const MaterialField& material, const std::vector<FacetSpring>& springs, const Numbering& numbering, const RigidFrame& frame,
+DenseMatrix energies(const mesh::Mesh& mesh, const MaterialField& material, const Springs& springs, const Numbering& numbering, const RigidFrame& frame,
                      const Volumes& volumes) {
   constexpr int d = E::dim, count = Row<d>::ColsAtCompileTime;
-  const auto at = [&](int node, int i) -> Row<d> {
+  const auto on = [&](const mesh::Mesh& mesh, const Numbering& numbering, int node, int i) -> Row<d> {
     return numbering.unknown[static_cast<std::size_t>(node) * d + i] < 0 ? Row<d>(Row<d>::Zero()) : row<d>(frame, mesh.node(node), i);
   };
+  const auto at = [&](int node, int i) { return on(mesh, numbering, node, i); };
   using Square = Eigen::Matrix<double, count, count>;
   constexpr int kFewCells = 2'000;  // for a thread
   Square sum = parallel_sum(std::ssize(volumes.held), kFewCells, [&](int first, int end) {
@@ -227,11 +228,11 @@ DenseMatrix energies(const mesh::Mesh& mesh, const MaterialField& material, cons
     return of_cells;
   });
   sum(count - 1, count - 1) += volumes.dilated / (frame.size * frame.size);
-  for (const FacetSpring& spring : springs)
-    for_each_facet_point(mesh, spring.facet, [&](const FacetPoint& p) {
+  for (const FacetSpring& spring : springs.facets)
+    for_each_facet_point(springs.mesh, spring.facet, [&](const FacetPoint& p) {
       for (int i = 0; i < d; ++i) {
         Row<d> moved = Row<d>::Zero();
-        for (int a = 0; a < p.nodes; ++a) moved += p.shape[a] * at(mesh.facet_node(spring.facet, a), i);
+        for (int a = 0; a < p.nodes; ++a) moved += p.shape[a] * on(springs.mesh, springs.numbering, springs.mesh.facet_node(spring.facet, a), i);
         sum += spring.stiffness[p.index][i] * p.measure * moved.transpose() * moved;
       }
     });
@@ -288,7 +289,7 @@ ByRows lost_in_rounding(const Motions& motions, const mesh::Mesh& mesh, const Nu
 
 }  // namespace
 
-WeakMotions weak_motions(const mesh::Mesh& mesh, const MaterialField& material, const std::vector<FacetSpring>& springs, const Numbering& numbering,
+WeakMotions weak_motions(const mesh::Mesh& mesh, const MaterialField& material, const Springs& springs, const Numbering& numbering,
                          const std::function<algebra::SymmetricMatrix()>& stiffness, const DenseMatrix& kernel) {
   const int all = mesh.dimension() == 2 ? 3 : 6;
   if (numbering.count() == 0 || kernel.cols() == all) return {};

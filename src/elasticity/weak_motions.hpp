@@ -18,6 +18,13 @@ struct WeakMotions {
   std::vector<Motion> motions;  ///< empty: all is well held
 };
 
+/// A body's springs, on its mesh or, where that is not refined as yet, on the cells near the boundary of the refined one.
+struct Springs {
+  const mesh::Mesh& mesh;
+  const Numbering& numbering;
+  const std::vector<FacetSpring>& facets;
+};
+
 /// A body is nearly free in a motion where its supports are far softer than the body itself. With Q an
 /// M-orthonormal basis of the rigid motions without the kernel (M: lumped volumes) and μ an eigenvalue of
 /// the compliance QᵀM K⁺ M Q, 1/μ is the stiffness of what holds the motion, supports and the body around
@@ -31,7 +38,7 @@ struct WeakMotions {
 /// Cost: two passes over the cells compare the least Rayleigh quotient of rigid motions, an upper bound of the supports' stiffness, with that of a dilatation.
 /// Only where their ratio is below 1e-3 there follow one factorisation of K and twice as many solutions as motions are held.
 /// `stiffness`: makes K, on the unknowns, where it is needed; `kernel`: its exact rigid modes, unknowns × modes.
-WeakMotions weak_motions(const mesh::Mesh& mesh, const MaterialField& material, const std::vector<FacetSpring>& springs, const Numbering& numbering,
+WeakMotions weak_motions(const mesh::Mesh& mesh, const MaterialField& material, const Springs& springs, const Numbering& numbering,
                          const std::function<algebra::SymmetricMatrix()>& stiffness, const algebra::DenseMatrix& kernel);
 
 }  // namespace dotyk::elasticity

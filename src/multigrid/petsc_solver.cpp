@@ -41,14 +41,14 @@ class PetscSolver final : public algebra::SpdSolver {
       cycle_ = std::make_unique<Cycle>(ranks, share_out(pieces, asked ? of_coarser.number() : 0));
       if (asked)
         coarser = std::make_shared<const RankSlices>(of_coarser, Numbering(*numbering_, matrix.coarse->front()), cycle_->take_coarser(),
-                                                     without_first(cycle_->functions()));
+                                                     without_first(cycle_->functions()), cycle_->coarser_load());
     });
     workers_.made();
     alone_.unlock();
     if (!coarser) return;
     const auto unknowns = static_cast<double>(coarser->diagonal().size());
     *matrix.coarser = std::shared_ptr<const algebra::SlicedMatrix>(coarser);
-    if (!ranks.alone() && !numbering_->hides() && !several_ranks_have_work(unknowns)) *matrix.coarser = matrix.coarser->lower();
+    if (!ranks.alone() && !numbering_->hides() && !cycle_->coarser_load() && !several_ranks_have_work(unknowns)) *matrix.coarser = matrix.coarser->lower();
     else coarser_numbering_ = coarser->numbering();
   }
   ~PetscSolver() override {

@@ -64,9 +64,28 @@ HalfRows assembled(const ShareMakers& makers, Lists lists, const OwnNumbers& own
   return own_rows(makers.assemble(std::move(lists)), own.slot, own.block, own.first, own.nodes);
 }
 
+/// Those that a rank stores: it has the row or the column.
+Entries entries_of(int rank, const algebra::Triplets& added, const Numbering& numbering) {
+  Entries own;
+  for (const auto& entry : added) {
+    const int row = numbering.slot()[entry.row()], column = numbering.slot()[entry.col()];
+    if (numbering.rank_of(row) != rank && numbering.rank_of(column) != rank) continue;
+    own.rows.push_back(row), own.columns.push_back(column), own.values.push_back(entry.value());
+  }
+  return own;
+}
+
+void send(const Ranks& ranks, int to, const Entries& entries) { ranks.send(to, entries.rows), ranks.send(to, entries.columns), ranks.send(to, entries.values); }
+
+void receive_added(const Ranks& ranks, HalfRows& rows) {
+  Entries entries;
+  ranks.receive(0, entries.rows), ranks.receive(0, entries.columns), ranks.receive(0, entries.values);
+  add(rows, entries);
+}
+
 /// Rank 0 learns the diagonal in take_diagonal().
-std::unique_ptr<Slice> told_slice(const Ranks& ranks, HalfRows rows, const std::vector<int>& idle, AllOwnFunctions functions) {
-  auto slice = std::make_unique<Slice>(ranks, std::move(rows), idle, std::move(functions));
+std::unique_ptr<Slice> told_slice(const Ranks& ranks, HalfRows rows, const std::vector<int>& idle, AllOwnFunctions functions, OwnLoad load = nullptr) {
+  auto slice = std::make_unique<Slice>(ranks, std::move(rows), idle, std::move(functions), std::move(load));
   ranks.send(0, slice->diagonal());
   ranks.send(0, std::vector<double>{static_cast<double>(slice->most_entries()), slice->entries()});
   return slice;
@@ -74,10 +93,10 @@ std::unique_ptr<Slice> told_slice(const Ranks& ranks, HalfRows rows, const std::
 
 }  // namespace
 
-std::unique_ptr<Slice> receive_rest(const Ranks& ranks, HalfRows rows, AllOwnFunctions functions) {
+std::unique_ptr<Slice> receive_rest(const Ranks& ranks, HalfRows rows, AllOwnFunctions functions, OwnLoad load) {
   std::vector<int> idle;
   ranks.receive(0, idle);
-  return told_slice(ranks, std::move(rows), idle, std::move(functions));
+  return told_slice(ranks, std::move(rows), idle, std::move(functions), std::move(load));
 }
 
 std::unique_ptr<Slice> receive_slice(const Ranks& ranks, const ShareMakers& makers) {
@@ -87,7 +106,9 @@ std::unique_ptr<Slice> receive_slice(const Ranks& ranks, const ShareMakers& make
   ranks.receive(0, own.slot), ranks.receive(0, own.idle);
   Lists lists = receive_lists(ranks, 0);
   AllOwnFunctions functions = receive_own_functions(ranks, 0);
-  return told_slice(ranks, assembled(makers, std::move(lists), own), own.idle, std::move(functions));
+  HalfRows rows = assembled(makers, std::move(lists), own);
+  receive_added(ranks, rows);
+  return told_slice(ranks, std::move(rows), own.idle, std::move(functions));
 }
 
 namespace {
@@ -97,14 +118,20 @@ struct RefinedRows {
   HalfRows rows;
   std::vector<int> idle;
   AllOwnFunctions functions;
+  OwnLoad load;
 };
-RefinedRows refined_rows(const Ranks& ranks, RefinedShare& share, const std::vector<std::vector<int>>& prescribed, const AllOwnFunctions& others, int dimension) {
+RefinedRows refined_rows(const Ranks& ranks, RefinedShare& share, const std::vector<std::vector<int>>& prescribed, const AllOwnFunctions& others, int dimension, bool loaded) {
   auto functions = std::make_shared<std::vector<OwnFunctions>>();
   std::vector<PrescribedBits> bits;
   for (const auto& rows : prescribed) bits.push_back(prescribed_bits(rows, dimension));
   for (std::size_t l = 0; l + 1 < bits.size(); ++l) functions->push_back(share.functions(static_cast<int>(l), bits[l], bits[l + 1]));
   functions->insert(functions->end(), others->begin(), others->end());
-  RefinedRows out{share.assemble(bits[0]), {}, functions};
+  RefinedShare::Assembled assembled = share.assemble(bits[0]);
+  RefinedRows out{std::move(assembled.rows), {}, functions, nullptr};
+  if (loaded) {
+    assembled.load.resize(static_cast<std::size_t>(out.rows.nodes()) * dimension);  // zeros where the rank has no cell with a load
+    out.load = std::make_shared<const std::vector<double>>(std::move(assembled.load));
+  }
   const std::vector<int>& first = share.first().front();
   for (const int row : prescribed[0])
     if (row / dimension >= first[ranks.own()] && row / dimension < first[ranks.own() + 1]) out.idle.push_back(row);
@@ -117,13 +144,15 @@ std::unique_ptr<Slice> receive_refined_slice(const Ranks& ranks, const ShareMake
   std::vector<int> sizes, number, first;
   ranks.receive(0, sizes), ranks.receive(0, number), ranks.receive(0, first);
   const int times = sizes[0], dimension = sizes[1];
+  const bool loaded = sizes[2] != 0;
   RefinedShare share(ranks, makers.refinable(receive_lists(ranks, 0)), dimension, std::move(number), std::move(first));
   for (int k = 0; k < times; ++k) share.refine({});
   std::vector<std::vector<int>> prescribed(static_cast<std::size_t>(times) + 1);
   for (auto& rows : prescribed) ranks.receive(0, rows);
   const AllOwnFunctions others = receive_own_functions(ranks, 0);
-  RefinedRows own = refined_rows(ranks, share, prescribed, others, dimension);
-  return told_slice(ranks, std::move(own.rows), own.idle, std::move(own.functions));
+  RefinedRows own = refined_rows(ranks, share, prescribed, others, dimension, loaded);
+  receive_added(ranks, own.rows);
+  return told_slice(ranks, std::move(own.rows), own.idle, std::move(own.functions), std::move(own.load));
 }
 
 void tell_some(const Ranks& ranks, const Slice& slice) {
@@ -151,10 +180,10 @@ RankSlices::RankSlices(Workers workers, const Refined& matrix) : workers_(worker
   made_ = true;
 }
 
-RankSlices::RankSlices(Workers workers, Numbering numbering, HalfRows own, AllOwnFunctions functions) : RankSlices(workers, std::move(numbering)) {
+RankSlices::RankSlices(Workers workers, Numbering numbering, HalfRows own, AllOwnFunctions functions, OwnLoad load) : RankSlices(workers, std::move(numbering)) {
   const Ranks& ranks = workers_.ranks();
   for (int r = 1; r < ranks.count(); ++r) ranks.send(r, idle_of(r));
-  slice_ = std::make_unique<Slice>(ranks, std::move(own), idle_of(0), std::move(functions));
+  slice_ = std::make_unique<Slice>(ranks, std::move(own), idle_of(0), std::move(functions), std::move(load));
   take_diagonal();
   workers_.made();
   made_ = true;
@@ -199,10 +228,13 @@ std::unique_ptr<Slice> RankSlices::share_out(const Shared& matrix) const {
       workers_.tell(Task::slice, r);
       send(ranks, r, some[r - begin].lists, numbers[r - begin]);
       send(ranks, r, functions[r - begin]);
+      send(ranks, r, entries_of(r, matrix.added, *numbering_));
       some[r - begin] = {}, functions[r - begin] = nullptr;
     }
   }
-  return std::make_unique<Slice>(ranks, assembled(matrix.makers, std::move(some[0].lists), numbers[0]), numbers[0].idle, functions[0]);
+  HalfRows rows = assembled(matrix.makers, std::move(some[0].lists), numbers[0]);
+  add(rows, entries_of(0, matrix.added, *numbering_));
+  return std::make_unique<Slice>(ranks, std::move(rows), numbers[0].idle, functions[0]);
 }
 
 namespace {
@@ -243,7 +275,7 @@ std::unique_ptr<Slice> RankSlices::share_out(const Refined& matrix) {
     own = matrix.base.share(of_rank), own_number.clear();
     for (std::size_t k = 0; k < own.unknowns.size(); k += d) own_number.push_back(base.slot()[own.unknowns[k]] / d);
     if (r == 0) break;
-    ranks.send(r, std::vector<int>{matrix.times, d}), ranks.send(r, own_number), ranks.send(r, first);
+    ranks.send(r, std::vector<int>{matrix.times, d, matrix.loaded}), ranks.send(r, own_number), ranks.send(r, first);
     send(ranks, r, own.lists);
   }
   RefinedShare share(ranks, matrix.base.makers.refinable(std::move(own.lists)), d, std::move(own_number), std::move(first));
@@ -260,9 +292,11 @@ std::unique_ptr<Slice> RankSlices::share_out(const Refined& matrix) {
     if (r == 0) break;
     for (const auto& rows : prescribed) ranks.send(r, rows);
     send(ranks, r, others);
+    send(ranks, r, entries_of(r, matrix.base.added, *numbering_));
   }
-  RefinedRows rows = refined_rows(ranks, share, prescribed, others, d);
-  return std::make_unique<Slice>(ranks, std::move(rows.rows), rows.idle, std::move(rows.functions));
+  RefinedRows rows = refined_rows(ranks, share, prescribed, others, d, matrix.loaded);
+  add(rows.rows, entries_of(0, matrix.base.added, *numbering_));
+  return std::make_unique<Slice>(ranks, std::move(rows.rows), rows.idle, std::move(rows.functions), std::move(rows.load));
 }
 
 void RankSlices::take_diagonal() {
@@ -298,6 +332,10 @@ bool RankSlices::holds(const algebra::Vectors& vectors) const {
 void RankSlices::take_product(const algebra::LongField& u, bool precisely, algebra::Field& from) const {
   if (!holds(*from.where()) || from.where() != u.high.where()) throw std::logic_error("slices: vectors that lie elsewhere");
   multiply(precisely ? Slice::Product::taken_precisely : Slice::Product::taken, dynamic_cast<RankVectors&>(*from.where()), {u.high.number(), u.low.number(), from.number()});
+}
+
+void RankSlices::add_load(algebra::Field& to) const {
+  if (slice_->load()) multiply(Slice::Product::load, dynamic_cast<RankVectors&>(*to.where()), {0, 0, to.number()});
 }
 
 Vector RankSlices::product(Slice::Product how, const Vector& x) const {

@@ -16,8 +16,8 @@ class RankSlices final : public algebra::SlicedMatrix {
  public:
   RankSlices(Workers workers, const Shared& matrix);
   RankSlices(Workers workers, const Refined& matrix);
-  /// Takes rows and functions that the ranks have already; `own` and `functions`: rank 0's. The others call receive_rest().
-  RankSlices(Workers workers, Numbering numbering, HalfRows own, AllOwnFunctions functions);
+  /// Takes rows and functions that the ranks have already; `own`, `functions` and `load`: rank 0's. The others call receive_rest().
+  RankSlices(Workers workers, Numbering numbering, HalfRows own, AllOwnFunctions functions, OwnLoad load);
   ~RankSlices() override;
 
   algebra::Vector times(const Eigen::Ref<const algebra::Vector>& x) const override;
@@ -26,6 +26,7 @@ class RankSlices final : public algebra::SlicedMatrix {
   std::shared_ptr<algebra::Vectors> vectors(const std::vector<int>& watched) const override;
   bool holds(const algebra::Vectors& vectors) const override;
   void take_product(const algebra::LongField& u, bool precisely, algebra::Field& from) const override;
+  void add_load(algebra::Field& to) const override;
 
   const Workers& workers() const { return workers_; }
   const std::shared_ptr<const Numbering>& numbering() const { return numbering_; }
@@ -56,7 +57,7 @@ class RankSlices final : public algebra::SlicedMatrix {
 /// What ranks other than 0 do when rank 0 makes slices, or asks for entries.
 std::unique_ptr<Slice> receive_slice(const Ranks& ranks, const ShareMakers& makers);
 std::unique_ptr<Slice> receive_refined_slice(const Ranks& ranks, const ShareMakers& makers);
-std::unique_ptr<Slice> receive_rest(const Ranks& ranks, HalfRows rows, AllOwnFunctions functions);
+std::unique_ptr<Slice> receive_rest(const Ranks& ranks, HalfRows rows, AllOwnFunctions functions, OwnLoad load);
 void tell_some(const Ranks& ranks, const Slice& slice);
 
 }  // namespace dotyk::multigrid

@@ -36,14 +36,16 @@ struct Shared {
   /// A share whose matrix has the right entries in rows of the flagged unknowns. Several threads call it.
   std::function<Share(const std::vector<char>& own)> share;
   ShareMakers makers;  ///< as the other ranks have them from work_for_rank_0()
+  const algebra::Triplets& added;  ///< to the matrix of the shares: entries of the lower triangle, where it has some
 };
 
 /// A symmetric matrix on bodies that the ranks refine. Rank 0 has the functions of coarser meshes near the boundary only, where components may be prescribed: its
 /// unknowns are those of the first one.
 struct Refined {
-  Shared base;  ///< the coarse bodies: all components of their nodes are unknowns
+  Shared base;  ///< the coarse bodies: all components of their nodes are unknowns; but `added` is to the matrix of the finest meshes, whose unknowns are here
   int times;    ///< the first `times` of the functions lead to these bodies
   const std::vector<algebra::CoarseFunctions>& coarse;  ///< `base.coupling.coarse` are the others, of all components
+  bool loaded;  ///< do shares have a load?
 };
 
 /// Several ranks share the work where each has enough to do. One process saves memory where there are many unknowns: solvers take the matrix of the slices on

@@ -87,7 +87,7 @@ std::unique_ptr<Cycle> make(Slices& slices) {
   if (piece.slices) take_matrix(piece, *slices.at(piece.slices));
   const int coarser = piece.coarser;
   auto cycle = std::make_unique<Cycle>(world(), std::move(piece));
-  if (HalfRows rows = cycle->take_coarser(); coarser) slices[coarser] = receive_rest(world(), std::move(rows), without_first(cycle->functions()));
+  if (HalfRows rows = cycle->take_coarser(); coarser) slices[coarser] = receive_rest(world(), std::move(rows), without_first(cycle->functions()), cycle->coarser_load());
   return cycle;
 }
 

@@ -85,6 +85,14 @@ std::vector<std::vector<int>> kinds(const Problem& problem) {
   return all;
 }
 
+/// Where nothing is hidden, the load that the slices have becomes the blocks'.
+void take_load_of_slices(Problem& problem) {
+  if (problem.sliced_load == 0 || problem.hides()) return;
+  const Vector all = whole_load(problem).get();
+  for (Block& block : problem.blocks) block.f = all.segment(block.first, block.size());
+  problem.sliced_load = 0;
+}
+
 /// The part of each block.
 void take_stiffness(Problem& problem, algebra::SymmetricMatrix all) {
   if (const auto slices = all.shared_slices()) return take_slices(problem, slices);
@@ -179,8 +187,9 @@ Coarser coarser(const Problem& problem, algebra::SymmetricMatrix stiffness) {
                                    [&](int column, double number) { entries.emplace_back(r, out.problem.blocks[b].first + column, it.value() * number); });
     }
   out.problem.B = algebra::from_triplets<SparseRows>(problem.rows(), out.problem.unknowns(), entries);
-  out.problem.c = problem.c, out.problem.groups = problem.groups, out.problem.friction = problem.friction;
+  out.problem.sliced_load = problem.sliced_load, out.problem.c = problem.c, out.problem.groups = problem.groups, out.problem.friction = problem.friction;
   out.problem.chains = problem.chains, out.problem.measure = problem.measure, out.problem.row_name = problem.row_name;
+  take_load_of_slices(out.problem);
   const auto has_node = [&](int row) {  // is it that of a node that both meshes have?
     const int unknown = greatest(problem.B, row);
     if (unknown < 0) return false;

@@ -52,7 +52,7 @@ Forces external_forces(const Problem& problem, const State& state) {
 Forces forces(const Problem& problem, const State& state) {
   Forces all = external_forces(problem, state);
   all.internal = stiffness_times(problem, algebra::LongField(*all.u), true);
-  if (problem.loaded()) all.load.emplace(all.u->where()).put(problem.load());
+  if (problem.loaded()) all.load = whole_load(problem, all.u->where());
   return all;
 }
 
@@ -147,9 +147,15 @@ std::vector<Sizes> sizes(const Problem& problem, const State& state, const Force
   each_block([&](const Block& block, Sizes& part) {
     const auto place = [&](int unknown) { return std::ranges::lower_bound(all.unknowns, unknown) - all.unknowns.begin(); };
     const Eigen::Index first = place(block.first), end = place(block.first + block.size());
-    add(part.contact, all.contact.segment(first, end - first)), add(part.load, block.f);
+    add(part.contact, all.contact.segment(first, end - first));
+    if (problem.sliced_load != 0) return;
+    add(part.load, block.f);
     part.greatest_load = std::max(part.greatest_load, block.f.lpNorm<Eigen::Infinity>());
   });
+  if (problem.sliced_load != 0) {  // all blocks are one part
+    const algebra::Field whole = whole_load(problem, all.u->where());
+    result[0].load = of.norm(whole)[0], result[0].greatest_load = whole.greatest();
+  }
   // Where half of the digits of K|u| are below this part of the forces of contact they need not be known.
   constexpr double kBelowForces = 0.01;
   const double half = std::sqrt(std::numeric_limits<double>::epsilon());

@@ -80,7 +80,7 @@ Vector Problem::load() const {
 }
 
 bool Problem::loaded() const {
-  return std::ranges::any_of(blocks, [](const Block& block) { return !block.f.isZero(0); });
+  return sliced_load != 0 || std::ranges::any_of(blocks, [](const Block& block) { return !block.f.isZero(0); });
 }
 
 Problem::NearRows Problem::near_rows() const {
@@ -212,6 +212,16 @@ Numbers times(const Problem& problem, const Numbers& u) {
 std::shared_ptr<algebra::Vectors> vectors(const Problem& problem, const std::vector<int>& watched) {
   const auto* all = slices(problem);
   return all ? all->vectors(watched) : algebra::vectors_here(problem.unknowns(), watched);
+}
+
+algebra::Field whole_load(const Problem& problem, std::shared_ptr<algebra::Vectors> where) {
+  algebra::Field all(where ? std::move(where) : vectors(problem));
+  if (problem.loaded()) all.put(problem.load());
+  if (problem.sliced_load == 0) return all;
+  algebra::Field of_slices(all.where());
+  slices(problem)->add_load(of_slices);
+  all.add(problem.sliced_load, of_slices);
+  return all;
 }
 
 std::shared_ptr<const algebra::Field> field(const Problem& problem, const Displacement& u) {

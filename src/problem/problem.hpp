@@ -39,7 +39,7 @@ struct Block {
   /// All rigid motions of the body on its unknowns, whatever holds it: what multigrid's coarse functions are made of. May be empty.
   std::function<algebra::DenseMatrix()> rigid = {};
   CoarseMeshes coarse = {};
-  int hidden = 0;  ///< unknowns that only the slices of K have: no load, row or kernel is about them, and they are not counted by size()
+  int hidden = 0;  ///< unknowns that only the slices of K have: no row or kernel is about them, and they are not counted by size()
   int size() const { return static_cast<int>(f.size()); }
 };
 
@@ -82,6 +82,7 @@ struct Problem {
   std::vector<double> measure;
   /// Where a row is, for messages: "node 12 of 'block' at (0.5, 0)". May be empty.
   std::function<std::string(int)> row_name;
+  double sliced_load = 0;  ///< loads are the blocks' f and so many times the load that the slices of K have: see SlicedMatrix::add_load()
 
   int unknowns() const { return blocks.empty() ? 0 : blocks.back().first + blocks.back().size(); }
   int all_unknowns() const;  ///< hidden ones among them
@@ -141,6 +142,8 @@ void take_slices(Problem& problem, const std::shared_ptr<const algebra::SlicedMa
 const algebra::SlicedMatrix* slices(const Problem& problem);
 /// Vectors that lie with the slices, or here where there are none. `watched`: unknowns, ascending.
 std::shared_ptr<algebra::Vectors> vectors(const Problem& problem, const std::vector<int>& watched = {});
+/// The load, f of all blocks and what the slices have, as such a vector. `where`: of vectors(); null: of new ones.
+algebra::Field whole_load(const Problem& problem, std::shared_ptr<algebra::Vectors> where = nullptr);
 /// u as such a vector: its own where it lies so already.
 std::shared_ptr<const algebra::Field> field(const Problem& problem, const Displacement& u);
 

@@ -129,8 +129,8 @@ double unbalanced(const Block& block, const Vector& force, double gross) {
 MotionResidual motion_residual(const Problem& problem, const State& state) {
   constexpr double kRoundings = 4;  // of u itself and of the sums in Ku
   const Measured m(problem, state, forces(problem, state));
-  const Vector internal = m.forces.internal->get(), external = problem.B.transpose() * state.lambda - problem.load();
-  const Vector gross = algebra::SparseRows(problem.B.cwiseAbs()).transpose() * state.lambda.cwiseAbs() + problem.load().cwiseAbs();
+  const Vector internal = m.forces.internal->get(), load = m.forces.load ? m.forces.load->get() : Vector(Vector::Zero(problem.unknowns())),
+               external = problem.B.transpose() * state.lambda - load, gross = algebra::SparseRows(problem.B.cwiseAbs()).transpose() * state.lambda.cwiseAbs() + load.cwiseAbs();
   std::vector<double> beyond(m.sizes.size(), 0);
   MotionResidual result;
   double greatest = 0;

@@ -7,20 +7,19 @@
 using namespace dotyk;
 using mesh::Point;
 
-TEST_CASE("a share has the rows of its unknowns: all elements, springs, supports, stiffness of cells") {
+TEST_CASE("a share has the rows of its unknowns: all elements, supports, stiffness of cells") {
   for (const int dim : {2, 3})
     for (const auto family : test::kFamilies) {
       const mesh::Mesh m = test::unit(dim, family, 3);
       std::vector<double> E, nu;
       for (int c = 0; c < m.cell_count(); ++c) E.push_back(100 + c), nu.push_back(0.2 + 0.1 * (c % 2));
       const elasticity::MaterialField varying(E, nu, dim, elasticity::Plane::stress), uniform = test::steel(dim);
-      const auto springs = test::even_springs(m, "top", {2, 5, 7});
       const auto numbering = test::prescribe(m, [](const Point& x, int i) { return x[0] == 0 && i == 0; }, [](const Point&) { return Point{0.1, 0, 0}; });
       for (const auto* material : {&varying, &uniform}) {
-        const algebra::SparseMatrix whole = elasticity::assemble(m, *material, springs, numbering);
+        const algebra::SparseMatrix whole = elasticity::assemble(m, *material, {}, numbering);
         std::vector<char> own(static_cast<std::size_t>(numbering.count()), 0);
         for (int i = 0; i < numbering.count(); ++i) own[i] = m.point(numbering.node[i])[1] > 0.5;
-        Share share = elasticity::share(m, *material, springs, numbering, own);
+        Share share = elasticity::share(m, *material, {}, numbering, own);
         CHECK(static_cast<int>(share.unknowns.size()) < numbering.count());
         const algebra::SparseMatrix part = elasticity::assemble_share(elasticity::joined({share}).lists);
         REQUIRE(part.rows() == static_cast<Eigen::Index>(share.unknowns.size()));

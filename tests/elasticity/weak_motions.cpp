@@ -16,7 +16,7 @@ WeakMotions weak(const mesh::Mesh& m, const Given& held, const std::vector<Facet
                  double nu = 0.3) {
   const auto numbering = test::prescribe(m, held, [](const Point&) { return Point{0, 0, 0}; });
   const auto material = test::steel(m.dimension(), E, nu);
-  return elasticity::weak_motions(m, material, springs, numbering, [&] { return elasticity::assemble(m, material, springs, numbering); }, elasticity::rigid_modes(m, numbering, springs).modes);
+  return elasticity::weak_motions(m, material, {m, numbering, springs}, numbering, [&] { return elasticity::assemble(m, material, springs, numbering); }, elasticity::rigid_modes(m, numbering, springs).modes);
 }
 
 bool nothing(const Point&, int) { return false; }

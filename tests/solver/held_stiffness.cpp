@@ -193,7 +193,7 @@ TEST_CASE("slices of several bodies, whose rows couple many displacements, give 
   const std::vector<int> node = nodes(whole);
   const std::vector<algebra::CoarseFunctions> functions = coarse_functions(whole);
   const multigrid::Coupling coupling{node, functions, whole.B, [](const auto&) {}};
-  take_slices(sliced, multigrid::make_slices({coupling, share, {from_lists, nullptr}}));
+  take_slices(sliced, multigrid::make_slices({coupling, share, {from_lists, nullptr}, {}}));
   REQUIRE(slices(sliced));
   const auto rigid = problem::rigid_motions(whole);
   const Vector u = test::Random(7).vector(whole.unknowns());

@@ -18,6 +18,7 @@ class Cycle {
 
   bool set(const Change& change);
   HalfRows take_coarser() { return hierarchy_.take_coarser(); }  ///< as in Hierarchy
+  const OwnLoad& coarser_load() const { return hierarchy_.coarser_load(); }
   const AllOwnFunctions& functions() const { return hierarchy_.functions(); }
 
   struct Solution {

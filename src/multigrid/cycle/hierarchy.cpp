@@ -173,6 +173,7 @@ void Hierarchy::multiply(int level) {
 void Hierarchy::take_functions(Mat S) {
   for (int l = 0; l < meshes(); ++l) {
     OwnedMat P = oblong(rows_.emplace_back((*piece_.functions)[l].rows(piece_.dimension)), piece_.own[l + 1], {l == 0 ? piece_.block : piece_.dimension, piece_.dimension});
+    if (l == 0 && piece_.load && piece_.coarser) restrict_load(P);
     if (l == 0 && S) P = product(S, P);
     interpolations_.push_back(std::move(P));
     multiply(l);
@@ -185,6 +186,15 @@ void Hierarchy::compute_coarser() {
   std::ranges::fill(pending_[0], 0);
   coarser_ = matrix(1).stored();
   make_definite(matrix(1), computed);
+}
+
+void Hierarchy::restrict_load(Mat P) {
+  OwnedVec coarse, fine;
+  check(MatCreateVecs(P, coarse.put(), fine.put()));
+  std::ranges::copy(*piece_.load, static_cast<double*>(Numbers(fine)));
+  check(MatMultTranspose(P, fine, coarse));
+  const ReadNumbers numbers(coarse);
+  coarser_load_ = std::make_shared<const std::vector<double>>(numbers + 0, numbers + piece_.own[1]);
 }
 
 void Hierarchy::take_aggregates(OwnedMat finest) {

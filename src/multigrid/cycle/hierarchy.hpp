@@ -23,6 +23,7 @@ class Hierarchy {
 
   /// Of the matrix of the next coarser mesh this rank's rows, without Piece::first, where the piece asks for them; once.
   HalfRows take_coarser() { return std::move(coarser_); }
+  const OwnLoad& coarser_load() const { return coarser_load_; }  ///< Pᵀ times that of the slice; null: there is none, or no coarser matrix is asked for
   const AllOwnFunctions& functions() const { return piece_.functions; }
   int levels() const { return static_cast<int>(matrices_.size()); }
   HalfMatrix& matrix(int level) { return *matrices_[level]; }             ///< from 0, the finest
@@ -38,6 +39,7 @@ class Hierarchy {
   OwnedMat oblong(Rows& rows, int own_columns, std::array<int, 2> blocks);
   void coarsen();
   void compute_coarser();
+  void restrict_load(Mat P);
   /// Levels of coarser meshes. S: the unknowns, of displacements, all slots; null where they are the same.
   void take_functions(Mat S);
   /// Levels of aggregates below a matrix of the near kernel that Piece::modes are.
@@ -52,6 +54,7 @@ class Hierarchy {
   const Ranks ranks_;
   Piece piece_;
   HalfRows coarser_;
+  OwnLoad coarser_load_;
   std::deque<Rows> rows_, others_;              // of the first interpolations: in own columns, in those of other ranks
   std::vector<std::shared_ptr<HalfMatrix>> matrices_;  // the first may be lent by a slice
   std::vector<OwnedMat> interpolations_;

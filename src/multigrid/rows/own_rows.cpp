@@ -1,6 +1,7 @@
 #include "multigrid/rows/own_rows.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace dotyk::multigrid {
 
@@ -56,6 +57,18 @@ HalfRows own_rows(const algebra::SparseMatrix& lower, const std::vector<int>& sl
     }
   }
   return rows;
+}
+
+void add(HalfRows& rows, const Entries& entries) {
+  const int block = rows.block;
+  for (std::size_t e = 0; e < entries.values.size(); ++e) {
+    const int a = entries.rows[e] / block, b = entries.columns[e] / block, r = entries.rows[e] % block, c = entries.columns[e] % block;
+    if (!rows.own(a) && !rows.own(b)) continue;
+    const HalfRows::Place place = rows.place(a, b);
+    if (!place.numbers) throw std::logic_error("own rows: an entry is added where the pattern has none");
+    place.at(block, r, c) += entries.values[e];
+    if (a == b && r != c) place.at(block, c, r) += entries.values[e];
+  }
 }
 
 void fill_idle(HalfRows& rows, const std::vector<int>& idle, double number) {

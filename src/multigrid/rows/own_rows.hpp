@@ -10,6 +10,14 @@ namespace dotyk::multigrid {
 /// The rows of so many nodes from `first` on. `slot`: the row, by the numbers of Numbering, of each unknown of the lower triangle.
 HalfRows own_rows(const algebra::SparseMatrix& lower, const std::vector<int>& slot, int block, int first, int nodes);
 
+/// Entries of the lower triangle of a symmetric matrix, rows and columns by the numbers of Numbering.
+struct Entries {
+  std::vector<int> rows, columns;
+  std::vector<double> values;
+};
+/// Adds those that are stored here. The pattern must have them.
+void add(HalfRows& rows, const Entries& entries);
+
 /// Sets the diagonal of those idle rows, counted as in Numbering, that are own.
 void fill_idle(HalfRows& rows, const std::vector<int>& idle, double number);
 

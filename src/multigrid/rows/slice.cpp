@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include "multigrid/rows/own_rows.hpp"
@@ -59,8 +60,8 @@ std::vector<long double> sum(const std::vector<double>& high, const std::vector<
 
 }  // namespace
 
-Slice::Slice(const Ranks& ranks, HalfRows rows, const std::vector<int>& idle, AllOwnFunctions functions)
-    : matrix_(std::make_shared<LentMatrix>(HalfMatrix(ranks, with_idle(ranks, std::move(rows), idle)))), functions_(std::move(functions)) {}
+Slice::Slice(const Ranks& ranks, HalfRows rows, const std::vector<int>& idle, AllOwnFunctions functions, OwnLoad load)
+    : matrix_(std::make_shared<LentMatrix>(HalfMatrix(ranks, with_idle(ranks, std::move(rows), idle)))), functions_(std::move(functions)), load_(std::move(load)) {}
 
 std::vector<double> Slice::diagonal() const {
   return matrix_->as_before([](HalfMatrix& A) {
@@ -87,8 +88,12 @@ double Slice::entries() const {
 }
 
 void Slice::multiply(Product how, algebra::VectorParts& v, const Factors& of) {
-  const std::vector<double>& x = v[of.x];
   std::vector<double>& y = v[of.y];
+  if (how == Product::load) {
+    if (load_) std::ranges::transform(y, *load_, y.begin(), std::plus());
+    return;
+  }
+  const std::vector<double>& x = v[of.x];
   matrix_->as_before([&](HalfMatrix& A) {
     switch (how) {
       case Product::plain: return A.times(x.data(), y.data());
@@ -105,6 +110,7 @@ void Slice::multiply(Product how, algebra::VectorParts& v, const Factors& of) {
         for (std::size_t i = 0; i < y.size(); ++i) y[i] = static_cast<double>(y[i] - times[i]);
         return;
       }
+      case Product::load: return;
     }
   });
 }

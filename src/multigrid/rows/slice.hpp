@@ -56,11 +56,14 @@ class LentMatrix {
   std::vector<Number> before_;  ///< the slice's, by place
 };
 
+/// A load of own rows; null, on all ranks: there is none.
+using OwnLoad = std::shared_ptr<const std::vector<double>>;
+
 /// multiply() and the constructor are collective.
 class Slice {
  public:
   /// `idle`: own rows without unknown. Their diagonal becomes the mean of all others. `functions`: for solvers.
-  Slice(const Ranks& ranks, HalfRows rows, const std::vector<int>& idle, AllOwnFunctions functions);
+  Slice(const Ranks& ranks, HalfRows rows, const std::vector<int>& idle, AllOwnFunctions functions, OwnLoad load = nullptr);
 
   HalfRows rows() const {
     return matrix_->as_before([](HalfMatrix& A) { return A.stored(); });
@@ -72,6 +75,7 @@ class Slice {
     return {matrix_.get(), [lent = matrix_](LentMatrix*) { lent->give_back(); }};
   }
   const AllOwnFunctions& functions() const { return functions_; }
+  const OwnLoad& load() const { return load_; }
   std::vector<double> diagonal() const;
   int most_entries() const;  ///< as in algebra::SlicedMatrix
   double entries() const;    ///< of all own rows
@@ -80,17 +84,18 @@ class Slice {
     return matrix_->as_before([&](HalfMatrix& A) { return A.full(rows); });
   }
 
-  enum class Product : int { plain, gross, taken, taken_precisely };
+  enum class Product : int { plain, gross, taken, taken_precisely, load };
   /// The vectors of a product, of own rows.
   struct Factors {
     int x, x_low, y;
   };
-  /// y = A x; y = |A| x; y −= A x; y −= A (x + x_low) in extended precision.
+  /// y = A x; y = |A| x; y −= A x; y −= A (x + x_low) in extended precision; y += load().
   void multiply(Product how, algebra::VectorParts& v, const Factors& of);
 
  private:
   std::shared_ptr<LentMatrix> matrix_;
   AllOwnFunctions functions_;
+  OwnLoad load_;
 };
 
 }  // namespace dotyk::multigrid

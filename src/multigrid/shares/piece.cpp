@@ -152,7 +152,7 @@ Piece receive_piece(const Ranks& ranks, int from) {
   return piece;
 }
 void take_matrix(Piece& piece, const Slice& slice) {
-  piece.functions = slice.functions();
+  piece.functions = slice.functions(), piece.load = slice.load();
   if (piece.functions->size() + 1 < piece.own.size()) throw std::logic_error("multigrid: slices of fewer coarser meshes than the solver is to have");
   piece.lent = slice.lend();
   if (!piece.lent) piece.matrix = slice.rows();

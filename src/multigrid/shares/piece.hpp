@@ -32,6 +32,7 @@ struct Piece {
   Change beside;                 ///< entries in which the matrix differs from the slice's, whose pattern may lack them
   Change first;                  ///< with which the matrix is positive definite
   AllOwnFunctions functions;     ///< of each coarser mesh; the slices', where they have the matrix: these are not sent
+  OwnLoad load = nullptr;        ///< the slice's; it is not sent
   HalfRows displaced;            ///< as in Matrix, where there are no coarser meshes; idle rows as in `matrix`
   Rows unknowns;                 ///< as in Matrix; idle rows as in the identity. No rows where it has none
   std::vector<double> modes;     ///< near kernel, by columns: on the finest level, or the coarsest mesh

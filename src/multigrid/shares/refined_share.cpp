@@ -137,7 +137,7 @@ OwnFunctions RefinedShare::functions(int level, const PrescribedBits& prescribed
   return own;
 }
 
-HalfRows RefinedShare::assemble(const PrescribedBits& prescribed) {
+RefinedShare::Assembled RefinedShare::assemble(const PrescribedBits& prescribed) {
   std::vector<char> fixed;
   std::vector<int> slot;
   for (const int node : number_) {
@@ -147,9 +147,12 @@ HalfRows RefinedShare::assemble(const PrescribedBits& prescribed) {
       if (!fixed.back()) slot.push_back(node * dimension_ + k);
     }
   }
-  const algebra::StoredMatrix lower = cells_->assemble(fixed);
-  const std::vector<int>& first = first_.front();
-  return own_rows(lower, slot, dimension_, first[ranks_.own()], first[ranks_.own() + 1] - first[ranks_.own()]);
+  const algebra::Refinable::Assembled all = cells_->assemble(fixed);
+  const int begin = first_.front()[ranks_.own()], count = first_.front()[ranks_.own() + 1] - begin;
+  std::vector<double> load(all.load.empty() ? 0 : static_cast<std::size_t>(count) * dimension_);
+  for (std::size_t k = 0; k < all.load.size(); ++k)
+    if (const int row = slot[k] - begin * dimension_; row >= 0 && row < std::ssize(load)) load[row] = all.load[k];
+  return {own_rows(all.lower, slot, dimension_, begin, count), std::move(load)};
 }
 
 }  // namespace dotyk::multigrid

@@ -32,8 +32,12 @@ class RefinedShare {
   const std::vector<std::vector<int>>& first() const { return first_; }
   /// The rows of P, see OwnFunctions, that lead from the level after `level` to it.
   OwnFunctions functions(int level, const PrescribedBits& prescribed, const PrescribedBits& coarse_prescribed) const;
-  /// Own rows of the stiffness of the finest level, zero at prescribed components. The cells are gone then.
-  HalfRows assemble(const PrescribedBits& prescribed);
+  struct Assembled {
+    HalfRows rows;
+    std::vector<double> load;  ///< empty: the cells have none
+  };
+  /// Own rows of the stiffness and of the load of the finest level, zero at prescribed components. The cells are gone then.
+  Assembled assemble(const PrescribedBits& prescribed);
 
  private:
   const Ranks& ranks_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algebra/congruent.hpp"
 #include "base/error.hpp"
 #include "base/listed.hpp"
 #include "base/memory.hpp"
@@ -36,9 +37,28 @@ std::string supports_of(const Body& body) {
   return listed(all, 4);
 }
 
+/// The springs of a body that ranks refine, as stiffness of its coarse mesh.
+algebra::SparseMatrix spring_stiffness(const Body& body, const Numbering& numbering, const std::vector<algebra::CoarseFunctions>& functions, const Numbering& coarse) {
+  algebra::SparseMatrix S = algebra::from_triplets(numbering.count(), numbering.count(), elasticity::spring_stiffness(*body.mesh, body.facet_springs(), numbering));
+  for (const algebra::CoarseFunctions& level : functions) {
+    algebra::SparseRows P;
+    level.to_matrix(P);
+    S = algebra::congruent(S, P);
+  }
+  std::vector<int> unknown(static_cast<std::size_t>(S.rows()), -1);  // of each column of the last functions; held nodes have none
+  for (std::size_t k = 0; k < coarse.unknown.size(); ++k)
+    if (const int column = functions.back().column[k]; column >= 0) unknown[column] = coarse.unknown[k];
+  algebra::Triplets entries;
+  for (int j = 0; j < S.cols(); ++j)
+    for (algebra::SparseMatrix::InnerIterator it(S, j); it; ++it)
+      if (const int row = std::max(unknown[it.row()], unknown[j]), column = std::min(unknown[it.row()], unknown[j]); column >= 0) entries.emplace_back(row, column, it.value());
+  return algebra::from_triplets(coarse.count(), coarse.count(), entries);
+}
+
 /// Of the coarse mesh of a body that ranks refine, held at all nodes whose functions meet a support: a support smaller than coarse cells counts as great as these.
-elasticity::WeakMotions weak_motions_before_refining(const Unrefined& body, const problem::Block& block) {
-  const std::vector<algebra::CoarseFunctions> functions = block.coarse.functions(body.times);
+elasticity::WeakMotions weak_motions_before_refining(const Body& body, const Numbering& numbering, const problem::Block& block) {
+  const Unrefined& before = *body.unrefined;
+  const std::vector<algebra::CoarseFunctions> functions = block.coarse.functions(before.times);
   std::vector<char> fixed;
   for (const int row : functions[0].row) fixed.push_back(row < 0);
   for (const algebra::CoarseFunctions& level : functions) {
@@ -49,15 +69,20 @@ elasticity::WeakMotions weak_motions_before_refining(const Unrefined& body, cons
         for (int k = 0; k < d; ++k) coarse[d * p + k] |= fixed[d * node + k];
     fixed.swap(coarse);
   }
-  const Numbering numbering = elasticity::number(*body.mesh, fixed, {});
-  return elasticity::weak_motions(*body.mesh, body.material, {}, numbering, [&] { return elasticity::assemble(*body.mesh, body.material, {}, numbering); },
-                                  algebra::DenseMatrix(numbering.count(), 0));
+  const Numbering coarse = elasticity::number(*before.mesh, fixed, {});
+  const std::vector<elasticity::FacetSpring> springs = body.facet_springs();
+  const auto stiffness = [&]() -> algebra::SymmetricMatrix {
+    algebra::StoredMatrix K = elasticity::assemble(*before.mesh, before.material, {}, coarse);
+    return springs.empty() ? std::move(K) : algebra::lower_sum(K, spring_stiffness(body, numbering, functions, coarse));
+  };
+  return elasticity::weak_motions(*before.mesh, before.material, {*body.mesh, numbering, springs}, coarse, stiffness,
+                                  elasticity::rigid_modes(*before.mesh, coarse, springs, body.mesh.get()).modes);
 }
 
 /// The entry of Model::nearly_free; lowers `softest`.
 std::string nearly_free(const Body& body, const Numbering& numbering, const problem::Block& block, double& softest) {
-  const auto weak = body.unrefined ? weak_motions_before_refining(*body.unrefined, block)
-                                   : elasticity::weak_motions(*body.mesh, body.material, body.facet_springs(), numbering, [&] { return block.K; }, block.kernel);
+  const auto weak = body.unrefined ? weak_motions_before_refining(body, numbering, block)
+                                   : elasticity::weak_motions(*body.mesh, body.material, {*body.mesh, numbering, body.facet_springs()}, numbering, [&] { return block.K; }, block.kernel);
   if (weak.motions.empty()) return "";
   softest = std::min(softest, weak.stiffness);
   const std::string motions = listed(texts(weak.motions));
@@ -89,6 +114,16 @@ void set_load(const Body& body, const Numbering& numbering, problem::Block& bloc
   auto load = elasticity::load(*body.mesh, body.material, body.facet_springs(), body.force, numbering);
   block.f = std::move(load.f);
   block.offset = load.offset + broken_energy(body);
+  if (!body.unrefined) return;
+  const std::vector<double> given = volume_forces(body);
+  for (std::size_t k = 0; k < given.size(); ++k) block.offset -= numbering.value(k) * given[k];
+}
+
+/// How many times the load that the slices have: all loads per volume have one factor.
+double factor_of_sliced_load(const Model& model) {
+  for (const Body& body : model.bodies)
+    if (body.unrefined && body.volume_load) return body.volume_load->factor;
+  return 0;
 }
 
 algebra::StoredMatrix assemble(const Body& body, const Numbering& numbering) {
@@ -238,6 +273,7 @@ Model build(const Scene& scene, problem::Clock& clock, Monitor& monitor, const L
     model.nearly_free.push_back(nearly_free(body, model.numbering[b], block, model.softest));
     monitor.check();
   }
+  model.problem.sliced_load = factor_of_sliced_load(model);
   require_moderate(model.problem, decomposition.has_value());
   if (decomposition) cut(*decomposition, model, monitor);
   clock.assembly += watch.seconds();
@@ -252,6 +288,7 @@ void reload(const Scene& scene, const std::vector<Body>& bodies, const Loading& 
     model.numbering[b] = number(model.bodies[b]);
     set_load(model.bodies[b], model.numbering[b], model.problem.blocks[b]);
   }
+  model.problem.sliced_load = factor_of_sliced_load(model);
   set_rows(scene, loading, model);
   require_moderate(model.problem, model.decomposition.has_value());
   load_subdomains(model);

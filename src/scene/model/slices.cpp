@@ -43,7 +43,7 @@ constexpr multigrid::ShareMakers kMakers{elasticity::assemble_share, elasticity:
 struct Source {
   const mesh::Mesh& mesh;
   const elasticity::MaterialField& material;
-  std::vector<elasticity::FacetSpring> springs;
+  const elasticity::LinearForce& force;
   const elasticity::Numbering& numbering;
   int first;  ///< unknown, among those of all bodies
 };
@@ -55,7 +55,7 @@ Share share_of_all(const std::vector<Source>& sources, const std::vector<char>& 
     const auto begin = own.begin() + source.first;
     const std::vector<char> of_body(begin, begin + source.numbering.count());
     if (std::ranges::none_of(of_body, [](char flag) { return flag; })) continue;
-    of_bodies.push_back(elasticity::share(source.mesh, source.material, source.springs, source.numbering, of_body));
+    of_bodies.push_back(elasticity::share(source.mesh, source.material, source.force, source.numbering, of_body));
     for (int& unknown : of_bodies.back().unknowns) unknown += source.first;
   }
   return elasticity::joined(std::move(of_bodies));
@@ -92,13 +92,13 @@ algebra::SparseRows rows_of_coarse(const Model& model, std::span<const algebra::
 }
 
 /// K after the ranks have refined the bodies, all of them so many times.
-std::shared_ptr<const algebra::SlicedMatrix> refined_slices(const Model& model, const std::vector<algebra::CoarseFunctions>& functions, int times) {
+std::shared_ptr<const algebra::SlicedMatrix> refined_slices(const Model& model, const std::vector<algebra::CoarseFunctions>& functions, const algebra::Triplets& springs, int times) {
   if (std::ssize(functions) < times) throw std::logic_error("bodies refined by the ranks, whose coarser meshes are not known");
   std::vector<elasticity::Numbering> numbering;  // of all components of the coarse bodies' nodes
   for (const Body& body : model.bodies) numbering.push_back(elasticity::number(*body.unrefined->mesh, std::vector<char>(body.unrefined->mesh->coordinates.size(), 0), {}));
   std::vector<Source> sources;
   for (std::size_t b = 0, first = 0; b < numbering.size(); first += static_cast<std::size_t>(numbering[b].count()), ++b)
-    sources.push_back({*model.bodies[b].unrefined->mesh, model.bodies[b].unrefined->material, {}, numbering[b], static_cast<int>(first)});
+    sources.push_back({*model.bodies[b].unrefined->mesh, model.bodies[b].unrefined->material, model.bodies[b].unrefined->force, numbering[b], static_cast<int>(first)});
   const int d = functions.front().dimension, components = d * functions[times - 1].coarse_nodes();
   std::vector<int> all(static_cast<std::size_t>(components)), node;
   std::iota(all.begin(), all.end(), 0);
@@ -106,9 +106,10 @@ std::shared_ptr<const algebra::SlicedMatrix> refined_slices(const Model& model, 
   std::vector<algebra::CoarseFunctions> of_coarse(functions.begin() + times, functions.end());
   if (!of_coarse.empty()) of_coarse.front().row = all, of_coarse.front().rows = components;
   const algebra::SparseRows rows = rows_of_coarse(model, std::span(functions).first(static_cast<std::size_t>(times)));
+  const bool loaded = std::ranges::any_of(model.bodies, [](const Body& body) { return body.volume_load.has_value(); });
   constexpr int kCoupled = 4;  // times the work at nodes that rows couple, on the finest mesh
   const multigrid::Coupling coupling{node, of_coarse, rows, [&](const auto& visit) { each_pair_of_cells(sources, visit); }, 1 + (kCoupled >> times)};
-  return multigrid::make_refined_slices({{coupling, [&](const std::vector<char>& own) { return share_of_all(sources, own); }, kMakers}, times, functions});
+  return multigrid::make_refined_slices({{coupling, [&](const std::vector<char>& own) { return share_of_all(sources, own); }, kMakers, springs}, times, functions, loaded});
 }
 
 }  // namespace
@@ -116,13 +117,18 @@ std::shared_ptr<const algebra::SlicedMatrix> refined_slices(const Model& model, 
 void assemble_slices(Model& model) {
   problem::Problem& problem = model.problem;
   const std::vector<algebra::CoarseFunctions> functions = problem::coarse_functions(problem);
-  if (const auto& coarse = model.bodies.front().unrefined) return take_slices(problem, refined_slices(model, functions, coarse->times));
+  algebra::Triplets springs;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b)
+    for (const auto& e : elasticity::spring_stiffness(*model.bodies[b].mesh, model.bodies[b].facet_springs(), model.numbering[b]))
+      springs.emplace_back(problem.blocks[b].first + e.row(), problem.blocks[b].first + e.col(), e.value());
+  if (const auto& coarse = model.bodies.front().unrefined) return take_slices(problem, refined_slices(model, functions, springs, coarse->times));
+  const elasticity::LinearForce none;
   std::vector<Source> sources;
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
-    sources.push_back({*model.bodies[b].mesh, model.bodies[b].material, model.bodies[b].facet_springs(), model.numbering[b], problem.blocks[b].first});
+    sources.push_back({*model.bodies[b].mesh, model.bodies[b].material, none, model.numbering[b], problem.blocks[b].first});
   const std::vector<int> nodes = problem::nodes(problem);
   const multigrid::Coupling coupling{nodes, functions, problem.B, [&](const auto& visit) { each_pair_of_cells(sources, visit); }};
-  take_slices(problem, multigrid::make_slices({coupling, [&](const std::vector<char>& own) { return share_of_all(sources, own); }, kMakers}));
+  take_slices(problem, multigrid::make_slices({coupling, [&](const std::vector<char>& own) { return share_of_all(sources, own); }, kMakers, springs}));
 }
 
 }  // namespace dotyk::scene

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <functional>
 #include <set>
 
 #include "base/error.hpp"
@@ -90,6 +91,7 @@ Point Solution::reaction(const Part& part) const {
       elasticity::internal_force(*body.mesh, body.material, body.facet_springs(), displacement(index));
   std::vector<double> other = body.force;
   other.resize(missing.size());  // zeros where the body has no loads
+  if (body.unrefined) std::ranges::transform(volume_forces(body), other, other.begin(), std::plus());
   for (const HeldEntry& entry : model_.held)
     if (entry.body == index) other[entry.component] -= entry.value * result_.state.lambda[entry.row];
   Point sum{0, 0, 0};

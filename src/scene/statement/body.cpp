@@ -52,29 +52,33 @@ std::shared_ptr<Body> make_body(std::string name, std::shared_ptr<const mesh::Me
   body->name = std::move(name);
   body->mesh = std::move(mesh);
   body->material = std::move(material);
-  if (force) load_volume(*body, force);
+  if (force) load_volume(*body, [&](const elasticity::CellPoint& p) { return force(p.x); });
   return body;
 }
 
 std::shared_ptr<Body> make_refined_body(std::string name, std::shared_ptr<const mesh::Mesh> mesh, elasticity::MaterialField material, int times,
                                         const elasticity::VectorField& force, Monitor& monitor) {
   require_sound(*mesh, material, name);
+  elasticity::LinearForce linear = force ? elasticity::LinearForce(*mesh, force) : elasticity::LinearForce();
+  std::shared_ptr<Body> body;
   if (multigrid::count_ranks() == 1) {
     for (int k = 0; k < times; ++k) {
       const auto finer = std::make_shared<const mesh::Mesh>(elasticity::refined(*mesh, &monitor));
-      material = elasticity::of_pieces(material, *mesh, *finer);
+      material = elasticity::of_pieces(material, *mesh, *finer), linear = elasticity::of_pieces(linear, *mesh, *finer);
       mesh = finer;
     }
-    return make_body(std::move(name), std::move(mesh), std::move(material), force);
+    body = make_body(std::move(name), std::move(mesh), std::move(material), {});
+  } else {
+    body = std::make_shared<Body>();
+    body->name = std::move(name);
+    std::vector<int> parent;
+    body->mesh = std::make_shared<const mesh::Mesh>(elasticity::refined_near_boundary(*mesh, times, parent, &monitor));
+    mesh::check(*body->mesh, "body '" + body->name + "'");
+    body->material = material.of(parent);
+    body->unrefined = std::make_shared<const Unrefined>(Unrefined{mesh, material, linear, times});
+    linear = linear.of(parent);
   }
-  auto body = std::make_shared<Body>();
-  body->name = std::move(name);
-  body->unrefined = std::make_shared<const Unrefined>(Unrefined{mesh, material, times});
-  if (force) require_whole(*body, "a force per volume");
-  std::vector<int> parent;
-  body->mesh = std::make_shared<const mesh::Mesh>(elasticity::refined_near_boundary(*mesh, times, parent, &monitor));
-  mesh::check(*body->mesh, "body '" + body->name + "'");
-  body->material = material.of(parent);
+  if (linear.any()) load_volume(*body, [&](const elasticity::CellPoint& p) { return linear.at(p.cell, p.x); });
   return body;
 }
 

@@ -12,6 +12,7 @@
 #include "contact/matching.hpp"
 #include "contact/sides.hpp"
 #include "elasticity/assembly.hpp"
+#include "elasticity/linear_force.hpp"
 #include "elasticity/load.hpp"
 #include "elasticity/material.hpp"
 #include "mesh/mesh.hpp"
@@ -113,6 +114,7 @@ struct LawSupport {
 struct Unrefined {
   std::shared_ptr<const mesh::Mesh> mesh;
   elasticity::MaterialField material;
+  elasticity::LinearForce force;  ///< per volume
   int times;
 };
 
@@ -129,7 +131,9 @@ struct Body {
   std::vector<LawSupport> laws;
   std::optional<VolumeLoad> volume_load;  ///< of no case
   std::vector<FacetLoad> facet_loads;
-  std::vector<double> force;  ///< nodal loads of no case, node × dimension: the sums of what these loads give (see sum_loads); empty: none
+  /// Nodal loads of no case, node × dimension: the sums of what these loads give (see sum_loads); empty: none. Where ranks refine the body, without the load per
+  /// volume, which goes to the cells that they have.
+  std::vector<double> force;
   double force_at(std::size_t component) const { return force.empty() ? 0 : force[component]; }
   std::vector<LoadCase> cases;
   /// The body that this one is another design of (its nodes moved), never one that is itself another's; null: of none.
@@ -161,12 +165,12 @@ std::shared_ptr<Body> make_body(std::string name, std::shared_ptr<const mesh::Me
                                 elasticity::MaterialField material,
                                 const elasticity::VectorField& force);
 
-/// A body whose mesh is `mesh` refined `times` ≥ 1 times; `material` is given for the cells of `mesh`. On one rank the body has the whole refined mesh. On several
+/// A body whose mesh is `mesh` refined `times` ≥ 1 times; `material` is given for the cells of `mesh`, and `force` is taken to be linear in each of them. On one rank the body has the whole refined mesh. On several
 /// ranks they refine it when it is solved, and the body has the cells near the boundary.
 std::shared_ptr<Body> make_refined_body(std::string name, std::shared_ptr<const mesh::Mesh> mesh, elasticity::MaterialField material, int times,
                                         const elasticity::VectorField& force, Monitor& monitor);
 
-/// Throws InputError where the body's inner cells are with the ranks. `what` needs them: "a force per volume".
+/// Throws InputError where the body's inner cells are with the ranks. `what` needs them: "an error estimate".
 void require_whole(const Body& body, const std::string& what);
 
 /// Names of the parts that the body's mesh brings.
@@ -191,13 +195,15 @@ void slide(Part& part);
 void displace(Part& part, const std::array<elasticity::ScalarField, 3>& components, const std::string& load_case = {});
 
 /// Force per volume, of no case; a body takes one.
-void load_volume(Body& body, const elasticity::VectorField& force);
+void load_volume(Body& body, const elasticity::CellField& force);
 /// Force per length (2-D) or area (3-D).
 void load(Part& part, const elasticity::VectorField& traction, const std::string& load_case = {});
 /// Positive along the inward normal.
 void pressure(Part& part, const elasticity::ScalarField& value, const std::string& load_case = {});
 /// The nodal loads of a case, zeros where there were none.
 std::vector<double>& nodal_loads(Body& body, const std::string& load_case = {});
+/// What the load per volume gives on the body's mesh, node × dimension; empty: there is none.
+std::vector<double> volume_forces(const Body& body);
 /// Sums the nodal loads of all cases anew from the body's loads, on its mesh as it is.
 void sum_loads(Body& body);
 /// The loads on parts, those of each facet together.

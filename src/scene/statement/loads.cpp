@@ -77,14 +77,13 @@ void pressure(Part& part, const elasticity::ScalarField& value, const std::strin
   add(part, load_case, true, [&](const FacetPoint& p, std::vector<double>& values) { values.push_back(value(p.x)); });
 }
 
-void load_volume(Body& body, const elasticity::VectorField& force) {
-  require_whole(body, "a force per volume");
+void load_volume(Body& body, const elasticity::CellField& force) {
   const std::size_t dim = body.dimension();
   VolumeLoad load{elasticity::cell_points(*body.mesh), true, nullptr, 1};
-  std::vector<double> values;  // while they are all alike, one
+  std::vector<double> values, nodal(body.mesh->coordinates.size(), 0.0);  // the values: while they are all alike, one
   std::size_t known = 0;
-  elasticity::add_body_force(*body.mesh, elasticity::CellField([&](const elasticity::CellPoint& p) {
-    const Point f = force(p.x);
+  elasticity::add_body_force(*body.mesh, [&](const elasticity::CellPoint& p) {
+    const Point f = force(p);
     if (known > 0 && load.uniform && !std::equal(f.begin(), f.begin() + dim, values.begin())) {
       load.uniform = false;
       values.reserve(static_cast<std::size_t>(body.mesh->cell_count()) * load.points * dim);
@@ -93,18 +92,29 @@ void load_volume(Body& body, const elasticity::VectorField& force) {
     if (known == 0 || !load.uniform) values.insert(values.end(), f.begin(), f.begin() + dim);
     ++known;
     return f;
-  }), nodal_loads(body));
+  }, body.unrefined ? nodal : nodal_loads(body));
   load.values = std::make_shared<const std::vector<double>>(std::move(values));
   body.volume_load = std::move(load);
 }
 
+namespace {
+
+void add_volume_forces(const Body& body, std::vector<double>& nodal) {
+  elasticity::add_body_force(*body.mesh, [&](const elasticity::CellPoint& p) { return body.volume_load->at(p.cell, p.index, body.dimension()); }, nodal);
+}
+
+}  // namespace
+
+std::vector<double> volume_forces(const Body& body) {
+  std::vector<double> nodal;
+  if (body.volume_load) nodal.assign(body.mesh->coordinates.size(), 0.0), add_volume_forces(body, nodal);
+  return nodal;
+}
+
 void sum_loads(Body& body) {
-  const int dim = body.dimension();
   body.force.clear();
   for (LoadCase& one : body.cases) one.force.clear();
-  if (body.volume_load)
-    elasticity::add_body_force(
-        *body.mesh, elasticity::CellField([&](const elasticity::CellPoint& p) { return body.volume_load->at(p.cell, p.index, dim); }), nodal_loads(body));
+  if (body.volume_load && !body.unrefined) add_volume_forces(body, nodal_loads(body));
   for (const FacetLoad& load : body.facet_loads) add_nodal(body, load);
 }
 
@@ -142,7 +152,6 @@ std::vector<Point> cell_forces(const Body& body) {
 }
 
 void spring(Part& part, const std::array<elasticity::ScalarField, 3>& stiffness) {
-  require_whole(*part.body, "a spring (but not part:support{ normal = elastic })");
   std::vector<SpringPatch> patches;
   const PartMark mark = part.mark();
   for (const mesh::Facet f : part.facets) {

@@ -43,9 +43,8 @@ class HeldStep final : public Step {
  public:
   HeldStep(const Problem& problem, HeldStiffness& stiffness, const Vector& rho, double tol)
       : problem_(problem), stiffness_(stiffness), rho_(rho), least_(std::max(kUnbalanced, stiffness.solver().iterates() ? kOfTolerance * tol : 0)), own_(problem.row_stiffness()),
-        basis_(stiffness.basis()), T_(stiffness.near_basis().T.cast<long double>()), f_(stiffness.field()), u_(stiffness.field()), before_(u_),
+        basis_(stiffness.basis()), T_(stiffness.near_basis().T.cast<long double>()), f_(stiffness.load()), u_(stiffness.field()), before_(u_),
         near_u_(LongVector::Zero(std::ssize(stiffness.near_rows()))), near_before_(near_u_), elsewhere_(stiffness.field()) {
-    if (problem.loaded()) f_.put(problem.load());
     of_loads_ = f_.moduli();
     for (const problem::FrictionGroup& group : problem.friction)
       for (int r = group.first; r < group.row(group.points()); ++r)

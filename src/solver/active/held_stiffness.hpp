@@ -76,6 +76,7 @@ class HeldStiffness {
   /// Zeros. Such vectors lie with the slices of K, or here where there are none; near_rows() are watched.
   algebra::Field field() const { return algebra::Field(vectors_); }
   algebra::Field field(const problem::Displacement& u) const;  ///< the same with these numbers
+  algebra::Field load() const { return problem::whole_load(problem_, vectors_); }
   /// Flags so many layers of neighbours in `of` as well, and returns a lower triangle that has at least the entries of TᵀKT in rows and columns of flagged unknowns.
   algebra::SymmetricMatrix near(std::vector<char>& of, int layers) const;
   /// `spring`: s, force per displacement, rows; `held`: one flag an unknown of the basis, of those of rows and of fixing_noticed() alone; `added`: to the

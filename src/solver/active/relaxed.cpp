@@ -59,8 +59,7 @@ class NonlinearSmoothing {
     Vector given = lambda_;
     for (int k = 0; k < size(); ++k)
       if (const int r = rows_[k].row; r >= 0) given[r] = 0, rows_[k].x = jump[r];
-    Field left = stiffness.field();
-    if (problem.loaded()) left.put(problem.load());
+    Field left = stiffness.load();
     problem::take_stiffness_times(problem, algebra::LongField(u_), false, left);
     left.set_watched(stiffness.near_basis().forces(left.watched() - stiffness.jumps().transpose() * given));
     left_ = left.some(unknowns_);

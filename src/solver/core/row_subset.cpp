@@ -35,7 +35,7 @@ void RowSubset::take(std::vector<char> kept) {
 
 Problem RowSubset::restricted() const {
   Problem out;
-  out.blocks = problem_.blocks;
+  out.blocks = problem_.blocks, out.sliced_load = problem_.sliced_load;
   std::vector<int> place(kept_.size(), -1);
   out.B = algebra::pick_rows(problem_.B, rows_);
   out.c.resize(count());
