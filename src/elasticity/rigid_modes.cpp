@@ -1,10 +1,15 @@
 #include "elasticity/rigid_modes.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "algebra/dense/decompositions.hpp"
 #include "algebra/dense/dense.hpp"
+#include "base/parallel.hpp"
+#include "elasticity/refined.hpp"
+#include "mesh/submesh.hpp"
 
 namespace dotyk::elasticity {
 
@@ -79,17 +84,44 @@ RigidModes rigid_modes(const Mesh& mesh, const Numbering& numbering, const std::
     });
   DenseMatrix rows(static_cast<Eigen::Index>(held.size()), frame.count());
   for (std::size_t k = 0; k < held.size(); ++k) rows.row(k) = held[k];
-  const DenseMatrix basis = null_space(rows, frame.count());
-
-  RigidModes result;
+  RigidModes result{{}, {}, frame, null_space(rows, frame.count())};
+  DenseMatrix& basis = result.coefficients;
   result.modes.resize(numbering.count(), basis.cols());
   for (int m = 0; m < basis.cols(); ++m) result.motions.push_back(frame.motion(basis.col(m)));
   if (basis.cols() == 0) return result;
   for (std::size_t k = 0; k < numbering.unknown.size(); ++k)
     if (numbering.unknown[k] >= 0) result.modes.row(numbering.unknown[k]) = frame.row(mesh, k) * basis;
-  for (int m = 0; m < basis.cols(); ++m)
-    result.modes.col(m) /= result.modes.col(m).lpNorm<Eigen::Infinity>();
+  for (int m = 0; m < basis.cols(); ++m) {
+    const double greatest = result.modes.col(m).lpNorm<Eigen::Infinity>();
+    result.modes.col(m) /= greatest, basis.col(m) /= greatest;
+  }
   return result;
+}
+
+Resultants resultants(const Mesh& mesh, int times, const LinearForce& force, const RigidModes& modes) {
+  constexpr int kPieces = 20'000;  // that are made at a time
+  const int chunk = std::max(1, kPieces >> mesh.dimension() * times), chunks = (mesh.cell_count() + chunk - 1) / chunk;
+  const DenseMatrix sums = parallel_sum(chunks, 1, [&](int first, int end) {
+    DenseMatrix sum = DenseMatrix::Zero(modes.coefficients.cols(), 2);
+    for (int k = first; k < end; ++k) {
+      std::vector<int> cells(static_cast<std::size_t>(std::min(chunk, mesh.cell_count() - k * chunk)));
+      std::iota(cells.begin(), cells.end(), k * chunk);
+      LinearForce on = force.of(cells);
+      Mesh part = mesh::submesh(mesh, std::move(cells)).mesh;
+      for (int t = 0; t < times; ++t) {
+        Mesh finer = refined(part);
+        on = of_pieces(on, part, finer), part = std::move(finer);
+      }
+      std::vector<double> nodal(part.coordinates.size(), 0.0);
+      add_body_force(part, [&](const CellPoint& p) { return on.at(p.cell, p.x); }, nodal);
+      for (std::size_t i = 0; i < nodal.size(); ++i) {
+        const RigidFrame::Row mode = modes.frame.row(part, i) * modes.coefficients;
+        sum.col(0) += nodal[i] * mode.transpose(), sum.col(1) += std::abs(nodal[i]) * mode.cwiseAbs().transpose();
+      }
+    }
+    return sum;
+  });
+  return {sums.col(0), sums.col(1)};
 }
 
 DenseMatrix all_rigid_motions(const Mesh& mesh, const std::vector<int>& unknown, int count) {

@@ -5,6 +5,7 @@
 #include "algebra/types.hpp"
 #include "base/motion.hpp"
 #include "elasticity/assembly.hpp"
+#include "elasticity/linear_force.hpp"
 
 namespace dotyk::elasticity {
 
@@ -49,11 +50,20 @@ struct RigidFrame {
 struct RigidModes {
   algebra::DenseMatrix modes;   ///< unknowns × count; greatest nodal component of each is 1
   std::vector<Motion> motions;  ///< what they are
+  RigidFrame frame;
+  algebra::DenseMatrix coefficients;  ///< in the frame, its motions × count: a row of `modes` is frame.row() times these
 };
 
 /// From geometry and supports alone, exactly: the motions that vanish on every prescribed
 /// component and wherever a spring acts. `sprung`: the mesh that the springs are on; null: the same.
 RigidModes rigid_modes(const mesh::Mesh& mesh, const Numbering& numbering, const std::vector<FacetSpring>& springs, const mesh::Mesh* sprung = nullptr);
+
+/// What modes make of a load: Rᵀf, and |R|ᵀ|f|, the same without signs.
+struct Resultants {
+  algebra::Vector e, gross;
+};
+/// Of the load that a force gives on the mesh refined `times` times, which is made a few cells at a time.
+Resultants resultants(const mesh::Mesh& mesh, int times, const LinearForce& force, const RigidModes& modes);
 
 /// All rigid motions, 3 or 6, on the unknowns, whatever holds the body. `unknown` as in Numbering, which has so many of them.
 algebra::DenseMatrix all_rigid_motions(const mesh::Mesh& mesh, const std::vector<int>& unknown, int count);

@@ -33,6 +33,7 @@ CoarserBlock coarser(const Block& fine, std::vector<algebra::CoarseFunctions> al
     if (functions.column[k] >= 0) block.node.push_back(static_cast<int>(k) / functions.dimension);
   block.kernel = functions.at_coarse(fine.kernel);
   block.motions = fine.motions;
+  block.sliced_resultants = fine.sliced_resultants, block.gross_sliced_resultants = fine.gross_sliced_resultants;
   if (fine.rigid) block.rigid = [rigid = fine.rigid, functions] { return functions.at_coarse(rigid()); };
   const std::vector<int>& known = fine.coarse.nodes;  // the last of them is repeated
   const auto nodes_of = [&](std::size_t level) { return known.empty() ? functions.coarse_nodes() : known[std::min(level, known.size() - 1)]; };

@@ -39,7 +39,9 @@ struct Block {
   /// All rigid motions of the body on its unknowns, whatever holds it: what multigrid's coarse functions are made of. May be empty.
   std::function<algebra::DenseMatrix()> rigid = {};
   CoarseMeshes coarse = {};
-  int hidden = 0;  ///< unknowns that only the slices of K have: no row or kernel is about them, and they are not counted by size()
+  int hidden = 0;  ///< unknowns that only the slices of K have: no row is about them, the kernel lacks their numbers, and they are not counted by size()
+  /// kernelᵀ times the load that the slices of K have, and the same without signs; empty: there is none.
+  algebra::Vector sliced_resultants = {}, gross_sliced_resultants = {};
   int size() const { return static_cast<int>(f.size()); }
 };
 

@@ -17,9 +17,10 @@ namespace {
 constexpr double kCancelled = 1e-13;
 
 /// Rᵀf; zero where it is rounding.
-Vector resultants(const Block& block) {
-  const Vector e = block.kernel.transpose() * block.f;
-  const double gross = (block.kernel.cwiseAbs().transpose() * block.f.cwiseAbs()).maxCoeff();
+Vector resultants(const Block& block, double sliced_load) {
+  Vector e = block.kernel.transpose() * block.f, of_gross = block.kernel.cwiseAbs().transpose() * block.f.cwiseAbs();
+  if (block.sliced_resultants.size() > 0) e += sliced_load * block.sliced_resultants, of_gross += std::abs(sliced_load) * block.gross_sliced_resultants;
+  const double gross = of_gross.maxCoeff();
   return e.lpNorm<Eigen::Infinity>() > kCancelled * gross ? e : Vector::Zero(e.size());
 }
 
@@ -58,7 +59,7 @@ void take_load(const Problem& problem, RigidMotions& rigid) {
   Eigen::Index k = 0;
   for (const Block& block : problem.blocks) {
     const Eigen::Index count = block.kernel.cols();
-    if (count > 0) rigid.e.segment(k, count) = resultants(block);
+    if (count > 0) rigid.e.segment(k, count) = resultants(block, problem.sliced_load);
     k += count;
   }
   rigid.noticed_e = rigid.noticed.transpose() * rigid.e;

@@ -75,8 +75,9 @@ elasticity::WeakMotions weak_motions_before_refining(const Body& body, const Num
     algebra::StoredMatrix K = elasticity::assemble(*before.mesh, before.material, {}, coarse);
     return springs.empty() ? std::move(K) : algebra::lower_sum(K, spring_stiffness(body, numbering, functions, coarse));
   };
-  return elasticity::weak_motions(*before.mesh, before.material, {*body.mesh, numbering, springs}, coarse, stiffness,
-                                  elasticity::rigid_modes(*before.mesh, coarse, springs, body.mesh.get()).modes);
+  const elasticity::RigidModes rigid = elasticity::rigid_modes(*before.mesh, coarse, springs, body.mesh.get());
+  if (rigid.modes.cols() > 0) problem::require_kernel(stiffness(), rigid.modes, "'" + body.name + "'", rigid.motions);
+  return elasticity::weak_motions(*before.mesh, before.material, {*body.mesh, numbering, springs}, coarse, stiffness, rigid.modes);
 }
 
 /// The entry of Model::nearly_free; lowers `softest`.
@@ -140,6 +141,10 @@ void add_body(const Body& body, Model& model) {
   block.name = body.name;
   block.f = algebra::Vector::Zero(numbering.count());
   block.node = numbering.node;
+  if (body.unrefined && body.volume_load && rigid.modes.cols() > 0) {
+    const auto [e, gross] = elasticity::resultants(*body.unrefined->mesh, body.unrefined->times, body.unrefined->force, rigid);
+    block.sliced_resultants = e, block.gross_sliced_resultants = gross;
+  }
   block.kernel = std::move(rigid.modes);
   block.motions = std::move(rigid.motions);
   const SharedList<int>& unknown = numbering.unknown;
@@ -269,7 +274,7 @@ Model build(const Scene& scene, problem::Clock& clock, Monitor& monitor, const L
       block.K = assemble(body, model.numbering[b]);
     }
     set_load(body, model.numbering[b], block);
-    problem::require_kernel(block.K, block.kernel, "'" + block.name + "'", block.motions);
+    if (!body.unrefined) problem::require_kernel(block.K, block.kernel, "'" + block.name + "'", block.motions);
     model.nearly_free.push_back(nearly_free(body, model.numbering[b], block, model.softest));
     monitor.check();
   }

@@ -22,16 +22,11 @@ bool refined_by_ranks(const Model& model) {
   if (all > std::numeric_limits<int>::max()) throw InputError(text("the scene has ", all, " unknowns; at most ", std::numeric_limits<int>::max(), " can be numbered"));
   const auto times = [](const Body& body) { return body.unrefined ? body.unrefined->times : 0; };
   const Body& first = model.bodies.front();
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const Body& body = model.bodies[b];
+  for (const Body& body : model.bodies)
     if (times(body) != times(first))
       throw InputError(text("'", first.name, "' has refine = ", times(first), ", '", body.name, "' refine = ", times(body),
                             " (0: it was made before there were several ranks, or without): on several ranks all bodies of a scene have the "
                             "same"));
-    if (times(body) > 0 && model.problem.blocks[b].kernel.cols() > 0)
-      throw InputError(text("'", body.name, "' is free to move (", listed(texts(model.problem.blocks[b].motions)),
-                            "): with refine on several ranks fix, slide or displace must hold it; contact and laws are not enough"));
-  }
   return times(first) > 0;
 }
 

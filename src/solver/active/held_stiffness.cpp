@@ -40,6 +40,8 @@ bool has_room(const SparseMatrix& matrix, const algebra::Triplets& entries) {
 HeldStiffness::HeldStiffness(const Problem& problem, const RigidMotions& rigid, const MakeSpdSolver& make, Monitor& monitor, algebra::SymmetricMatrix* coarser)
     : problem_(problem), basis_(problem::row_basis(problem)), unnoticed_(problem::unnoticed_displacements(problem, rigid)), rows_(basis_.times(problem.B)),
       fixing_(algebra::fixing_unknowns(unnoticed_)) {
+  if (unnoticed_.cols() > 0 && problem.hides())
+    throw InputError("nothing notices " + problem::describe(rigid.motions, rigid.unnoticed.col(0)) + ": with refine on several ranks a support or a contact must");
   rows_.prune([](auto, auto, double value) { return std::abs(value) > 1e-14; });
   fix_noticed(rigid);
   const algebra::Triplets beside = assemble(make.takes_slices);

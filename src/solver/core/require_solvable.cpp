@@ -27,7 +27,7 @@ std::string all(const std::vector<std::string>& names) {
 /// Refuses a block that no row touches unless its load is in equilibrium, and not nothing.
 void require_held(const problem::Block& block) {
   const double load = block.f.lpNorm<1>();
-  if (load > 0 && (block.kernel.transpose() * block.f).lpNorm<Eigen::Infinity>() < 1e-10 * load) return;
+  if (block.hidden == 0 && load > 0 && (block.kernel.transpose() * block.f).lpNorm<Eigen::Infinity>() < 1e-10 * load) return;
   throw InputError(text("'", block.name, "' is not held: nothing stops its ", all(texts(block.motions)),
                         "; fix a part of it or put it in contact"));
 }

@@ -31,7 +31,7 @@ void require_finite(const Problem& problem, const Result& result, const Residual
 /// The equilibrium residual less what rounding of motions as a whole makes of it, where that is what is too great: the
 /// reason then says whose stresses suffer.
 double honest_equilibrium(const Problem& problem, double raw, double allowed, Result& result) {
-  if (raw <= allowed || raw > kMostGranted) return raw;
+  if (raw <= allowed || raw > kMostGranted || problem.hides()) return raw;
   const problem::MotionResidual motion = problem::motion_residual(problem, result.state);
   const double honest = std::max(motion.beyond, motion.resultants);
   if (motion.most >= 0 && honest <= allowed)
