@@ -175,7 +175,7 @@ void inside(const Mesh& mesh, const MaterialField& material, const std::vector<d
       const double w = measure * E::load_weight(q);
       estimate.cells[c].recovery += w * error.dot(inverse * error);
       for (int i = 0; i < E::dim; ++i) estimate.cells[c].bulk += w * weight * lacking[i] * lacking[i];
-      estimate.solution_squared += w * raw.dot(inverse * raw);
+      estimate.solution[c] += w * raw.dot(inverse * raw);
     }
   });
 }
@@ -297,7 +297,7 @@ ErrorEstimate estimate_error(const Mesh& mesh, const MaterialField& material, co
                              const std::vector<Stress>* whole) {
   const Regions regions = elasticity::regions(mesh, material);
   const std::vector<Recovered> recovered = recover(mesh, material, u, regions, whole);
-  ErrorEstimate estimate{std::vector<ErrorParts>(mesh.cell_count()), 0};
+  ErrorEstimate estimate{std::vector<ErrorParts>(mesh.cell_count()), std::vector<double>(mesh.cell_count(), 0.0)};
   dispatch(mesh.element, [&]<class E>() { inside<E>(mesh, material, u, force, regions, recovered, estimate); });
   for (const FacetTraction& given : boundary) {
     const int c = given.facet.cell;

@@ -46,7 +46,7 @@ struct FacetTraction {
 
 struct ErrorEstimate {
   std::vector<ErrorParts> cells;
-  double solution_squared = 0;  ///< ∫ σ_h:c⁻¹:σ_h
+  std::vector<double> solution;  ///< ∫ σ_h:c⁻¹:σ_h of each cell
 };
 
 /// The estimate for one body of the nodal displacement u (node × dimension). `force`: per volume, the mean of each

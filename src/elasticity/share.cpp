@@ -18,13 +18,24 @@ namespace {
 enum Whole { kElement = MaterialField::kWholeLists, kCells, kFixed, kForceKind };
 enum Real { kCoordinates = MaterialField::kRealLists, kForce };
 
+/// So many layers of cells about the flagged nodes.
+std::vector<int> cells_about(const mesh::Mesh& mesh, std::vector<char> flagged, int layers) {
+  std::vector<int> cells = mesh::cells_at(mesh, flagged);
+  for (; layers > 1; --layers) {
+    for (const int c : cells)
+      for (int k = 0; k < mesh::nodes_of(mesh.element); ++k) flagged[mesh.cell(c)[k]] = 1;
+    cells = mesh::cells_at(mesh, flagged);
+  }
+  return cells;
+}
+
 }  // namespace
 
-Share share(const mesh::Mesh& mesh, const MaterialField& material, const LinearForce& force, const Numbering& numbering, const std::vector<char>& own) {
+Share share(const mesh::Mesh& mesh, const MaterialField& material, const LinearForce& force, const Numbering& numbering, const std::vector<char>& own, int body, int layers) {
   std::vector<char> near(static_cast<std::size_t>(mesh.node_count()), 0);
   for (std::size_t i = 0; i < own.size(); ++i)
     if (own[i]) near[numbering.node[i]] = 1;
-  mesh::Submesh part = mesh::submesh(mesh, mesh::cells_at(mesh, near));
+  mesh::Submesh part = mesh::submesh(mesh, cells_about(mesh, std::move(near), layers));
   Share out;
   std::vector<int> fixed;
   for (const int node : part.node)
@@ -36,7 +47,7 @@ Share share(const mesh::Mesh& mesh, const MaterialField& material, const LinearF
   out.lists = material.of(part.cell).lists();
   Lists of_force = force.of(part.cell).lists();
   const auto add = [](auto& to, auto&&... lists) { (to.push_back(std::move(lists)), ...); };
-  add(out.lists.whole, std::vector{static_cast<int>(mesh.element)}, std::move(part.mesh.cells), std::move(fixed), std::move(of_force.whole[0]));
+  add(out.lists.whole, std::vector{static_cast<int>(mesh.element), body}, std::move(part.mesh.cells), std::move(fixed), std::move(of_force.whole[0]));
   add(out.lists.real, std::move(part.mesh.coordinates), std::move(of_force.real[0]));
   return out;
 }
@@ -56,17 +67,9 @@ Share joined(std::vector<Share> of_bodies) {
 
 namespace {
 
-/// One body's cells of a share.
-struct Cells {
-  mesh::Mesh mesh;
-  MaterialField material;
-  LinearForce force;
-  std::vector<char> fixed;  ///< node × dimension
-};
-
 /// From the lists of joined(), body by body.
-std::vector<Cells> cells_of(Lists lists) {
-  std::vector<Cells> all;
+std::vector<ShareCells> cells_of(Lists lists) {
+  std::vector<ShareCells> all;
   auto whole = lists.whole.begin() + 1;
   auto real = lists.real.begin();
   const std::vector<int> sizes = std::move(lists.whole[0]);
@@ -74,7 +77,8 @@ std::vector<Cells> cells_of(Lists lists) {
     Lists body;
     std::move(whole, whole + sizes[k], std::back_inserter(body.whole)), whole += sizes[k];
     std::move(real, real + sizes[k + 1], std::back_inserter(body.real)), real += sizes[k + 1];
-    Cells& cells = all.emplace_back();
+    ShareCells& cells = all.emplace_back();
+    cells.body = body.whole[kElement][1];
     cells.material = MaterialField(body);
     cells.mesh.element = static_cast<mesh::Element>(body.whole[kElement][0]);
     cells.mesh.coordinates.swap(body.real[kCoordinates]), cells.mesh.cells.swap(body.whole[kCells]);
@@ -85,9 +89,9 @@ std::vector<Cells> cells_of(Lists lists) {
 }
 
 /// The meshes are gone then.
-algebra::StoredMatrix assembled(std::vector<Cells> bodies) {
+algebra::StoredMatrix assembled(std::vector<ShareCells> bodies) {
   std::vector<algebra::StoredMatrix> blocks;
-  for (Cells& body : bodies) {
+  for (ShareCells& body : bodies) {
     require_memory(2 * matrix_bytes(body.mesh), "a share of the stiffness");
     blocks.push_back(assemble(body.mesh, body.material, {}, number(body.mesh, body.fixed, {})));
     body = {};
@@ -104,71 +108,63 @@ algebra::StoredMatrix assembled(std::vector<Cells> bodies) {
   return joined;
 }
 
-class RefinableShare final : public algebra::Refinable {
- public:
-  explicit RefinableShare(std::vector<Cells> bodies) : bodies_(std::move(bodies)) {}
-
-  Buckets refine() override {
-    std::vector<int> coarse(bodies_.size());
-    int nodes = 0;
-    for (std::size_t b = 0; b < bodies_.size(); ++b) {
-      Cells& body = bodies_[b];
-      require_memory(refining_bytes(body.mesh), "a share of the refined mesh");
-      mesh::Mesh finer = refined(body.mesh);
-      body.material = of_pieces(body.material, body.mesh, finer), body.force = of_pieces(body.force, body.mesh, finer);
-      coarse[b] = body.mesh.node_count(), nodes += finer.node_count();
-      body.mesh = std::move(finer);
-    }
-    Buckets means(nodes, [&](auto&& put) {
-      int node = 0, first = 0;
-      for (std::size_t b = 0; b < bodies_.size(); first += coarse[b], ++b)
-        for (int i = 0; i < bodies_[b].mesh.node_count(); ++i, ++node)
-          for (const int p : bodies_[b].mesh.coarser->means[i]) put(node, first + p);
-    });
-    for (Cells& body : bodies_) body.mesh.coarser = nullptr;
-    return means;
-  }
-
-  std::vector<int> keep(const std::vector<char>& flagged) override {
-    std::vector<int> before;
-    auto first = flagged.begin();
-    for (Cells& body : bodies_) {
-      const auto end = first + body.mesh.node_count();
-      mesh::Submesh left = mesh::submesh(body.mesh, mesh::cells_at(body.mesh, {first, end}));
-      body.mesh = std::move(left.mesh), body.material = body.material.of(left.cell), body.force = body.force.of(left.cell);
-      for (const int node : left.node) before.push_back(static_cast<int>(first - flagged.begin()) + node);
-      first = end;
-    }
-    return before;
-  }
-
-  Assembled assemble(const std::vector<char>& fixed) override {
-    auto first = fixed.begin();
-    for (Cells& body : bodies_) {
-      const auto end = first + std::ssize(body.mesh.coordinates);
-      body.fixed.assign(first, end), first = end;
-    }
-    std::vector<double> load = this->load();
-    return {assembled(std::move(bodies_)), std::move(load)};
-  }
-
- private:
-  std::vector<double> load() const {
-    std::vector<double> all;
-    if (std::ranges::none_of(bodies_, [](const Cells& body) { return body.force.any(); })) return all;
-    for (const Cells& body : bodies_) {
-      std::vector<double> nodal(body.mesh.coordinates.size(), 0.0);
-      if (body.force.any()) add_body_force(body.mesh, [&](const CellPoint& p) { return body.force.at(p.cell, p.x); }, nodal);
-      for (std::size_t k = 0; k < nodal.size(); ++k)
-        if (!body.fixed[k]) all.push_back(nodal[k]);
-    }
-    return all;
-  }
-
-  std::vector<Cells> bodies_;
-};
-
 }  // namespace
+
+Buckets RefinableShare::refine() {
+  std::vector<int> coarse(bodies_.size());
+  int nodes = 0;
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    ShareCells& body = bodies_[b];
+    require_memory(refining_bytes(body.mesh), "a share of the refined mesh");
+    mesh::Mesh finer = refined(body.mesh);
+    body.material = of_pieces(body.material, body.mesh, finer), body.force = of_pieces(body.force, body.mesh, finer);
+    coarse[b] = body.mesh.node_count(), nodes += finer.node_count();
+    body.mesh = std::move(finer);
+  }
+  Buckets means(nodes, [&](auto&& put) {
+    int node = 0, first = 0;
+    for (std::size_t b = 0; b < bodies_.size(); first += coarse[b], ++b)
+      for (int i = 0; i < bodies_[b].mesh.node_count(); ++i, ++node)
+        for (const int p : bodies_[b].mesh.coarser->means[i]) put(node, first + p);
+  });
+  for (ShareCells& body : bodies_) body.mesh.coarser = nullptr;
+  return means;
+}
+
+std::vector<int> RefinableShare::keep(const std::vector<char>& flagged, int layers) {
+  std::vector<int> before;
+  auto first = flagged.begin();
+  for (ShareCells& body : bodies_) {
+    const auto end = first + body.mesh.node_count();
+    mesh::Submesh left = mesh::submesh(body.mesh, cells_about(body.mesh, {first, end}, layers));
+    body.mesh = std::move(left.mesh), body.material = body.material.of(left.cell), body.force = body.force.of(left.cell);
+    for (const int node : left.node) before.push_back(static_cast<int>(first - flagged.begin()) + node);
+    first = end;
+  }
+  return before;
+}
+
+algebra::Refinable::Assembled RefinableShare::assemble(const std::vector<char>& fixed) {
+  auto first = fixed.begin();
+  for (ShareCells& body : bodies_) {
+    const auto end = first + std::ssize(body.mesh.coordinates);
+    body.fixed.assign(first, end), first = end;
+  }
+  std::vector<double> load = this->load();
+  return {assembled(std::move(bodies_)), std::move(load)};
+}
+
+std::vector<double> RefinableShare::load() const {
+  std::vector<double> all;
+  if (std::ranges::none_of(bodies_, [](const ShareCells& body) { return body.force.any(); })) return all;
+  for (const ShareCells& body : bodies_) {
+    std::vector<double> nodal(body.mesh.coordinates.size(), 0.0);
+    if (body.force.any()) add_body_force(body.mesh, [&](const CellPoint& p) { return body.force.at(p.cell, p.x); }, nodal);
+    for (std::size_t k = 0; k < nodal.size(); ++k)
+      if (!body.fixed[k]) all.push_back(nodal[k]);
+  }
+  return all;
+}
 
 algebra::StoredMatrix assemble_share(Lists lists) { return assembled(cells_of(std::move(lists))); }
 

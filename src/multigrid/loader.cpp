@@ -74,6 +74,12 @@ std::shared_ptr<const algebra::SlicedMatrix> make_refined_slices(const Refined& 
   return std::shared_ptr<const algebra::SlicedMatrix>(door<algebra::SlicedMatrix*(const Refined&)>("dotyk_multigrid_refined_slices")(matrix));
 }
 
+std::vector<Lists> visit(const algebra::SlicedMatrix& refined, const Visit& visit) {
+  std::vector<Lists> told;
+  door<void(const algebra::SlicedMatrix&, const Visit&, std::vector<Lists>&)>("dotyk_multigrid_visit")(refined, visit, told);
+  return told;
+}
+
 void work_for_rank_0(bool spawned, const ShareMakers& makers) { door<void(bool, const ShareMakers&)>("dotyk_multigrid_work")(spawned, makers); }
 
 namespace {

@@ -13,9 +13,8 @@
 #include "base/parallel.hpp"
 #include "base/text.hpp"
 #include "multigrid/processes/petsc_session.hpp"
-#include "multigrid/rows/own_rows.hpp"
 #include "multigrid/shares/functions.hpp"
-#include "multigrid/shares/refined_share.hpp"
+#include "multigrid/shares/messages.hpp"
 
 namespace dotyk::multigrid {
 
@@ -38,22 +37,6 @@ struct OwnNumbers {
   std::vector<int> idle = {};           ///< own rows without unknown
 };
 
-void send(const Ranks& ranks, int to, const Lists& lists) {
-  ranks.send(to, std::vector<int>{static_cast<int>(lists.whole.size()), static_cast<int>(lists.real.size())});
-  for (const auto& list : lists.whole) ranks.send(to, list);
-  for (const auto& list : lists.real) ranks.send(to, list);
-}
-
-Lists receive_lists(const Ranks& ranks, int from) {
-  std::vector<int> sizes;
-  ranks.receive(from, sizes);
-  Lists lists;
-  lists.whole.resize(static_cast<std::size_t>(sizes[0])), lists.real.resize(static_cast<std::size_t>(sizes[1]));
-  for (auto& list : lists.whole) ranks.receive(from, list);
-  for (auto& list : lists.real) ranks.receive(from, list);
-  return lists;
-}
-
 void send(const Ranks& ranks, int to, const Lists& lists, const OwnNumbers& own) {
   ranks.send(to, std::vector<int>{own.block, own.first, own.nodes});
   ranks.send(to, own.slot), ranks.send(to, own.idle);
@@ -62,33 +45,6 @@ void send(const Ranks& ranks, int to, const Lists& lists, const OwnNumbers& own)
 
 HalfRows assembled(const ShareMakers& makers, Lists lists, const OwnNumbers& own) {
   return own_rows(makers.assemble(std::move(lists)), own.slot, own.block, own.first, own.nodes);
-}
-
-/// Those that a rank stores: it has the row or the column.
-Entries entries_of(int rank, const algebra::Triplets& added, const Numbering& numbering) {
-  Entries own;
-  for (const auto& entry : added) {
-    const int row = numbering.slot()[entry.row()], column = numbering.slot()[entry.col()];
-    if (numbering.rank_of(row) != rank && numbering.rank_of(column) != rank) continue;
-    own.rows.push_back(row), own.columns.push_back(column), own.values.push_back(entry.value());
-  }
-  return own;
-}
-
-void send(const Ranks& ranks, int to, const Entries& entries) { ranks.send(to, entries.rows), ranks.send(to, entries.columns), ranks.send(to, entries.values); }
-
-void receive_added(const Ranks& ranks, HalfRows& rows) {
-  Entries entries;
-  ranks.receive(0, entries.rows), ranks.receive(0, entries.columns), ranks.receive(0, entries.values);
-  add(rows, entries);
-}
-
-/// Rank 0 learns the diagonal in take_diagonal().
-std::unique_ptr<Slice> told_slice(const Ranks& ranks, HalfRows rows, const std::vector<int>& idle, AllOwnFunctions functions, OwnLoad load = nullptr) {
-  auto slice = std::make_unique<Slice>(ranks, std::move(rows), idle, std::move(functions), std::move(load));
-  ranks.send(0, slice->diagonal());
-  ranks.send(0, std::vector<double>{static_cast<double>(slice->most_entries()), slice->entries()});
-  return slice;
 }
 
 }  // namespace
@@ -109,50 +65,6 @@ std::unique_ptr<Slice> receive_slice(const Ranks& ranks, const ShareMakers& make
   HalfRows rows = assembled(makers, std::move(lists), own);
   receive_added(ranks, rows);
   return told_slice(ranks, std::move(rows), own.idle, std::move(functions));
-}
-
-namespace {
-
-/// What a rank makes its slice of, once it has refined its share. `prescribed`: rows of each level; `others`: the functions of meshes coarser than its share was.
-struct RefinedRows {
-  HalfRows rows;
-  std::vector<int> idle;
-  AllOwnFunctions functions;
-  OwnLoad load;
-};
-RefinedRows refined_rows(const Ranks& ranks, RefinedShare& share, const std::vector<std::vector<int>>& prescribed, const AllOwnFunctions& others, int dimension, bool loaded) {
-  auto functions = std::make_shared<std::vector<OwnFunctions>>();
-  std::vector<PrescribedBits> bits;
-  for (const auto& rows : prescribed) bits.push_back(prescribed_bits(rows, dimension));
-  for (std::size_t l = 0; l + 1 < bits.size(); ++l) functions->push_back(share.functions(static_cast<int>(l), bits[l], bits[l + 1]));
-  functions->insert(functions->end(), others->begin(), others->end());
-  RefinedShare::Assembled assembled = share.assemble(bits[0]);
-  RefinedRows out{std::move(assembled.rows), {}, functions, nullptr};
-  if (loaded) {
-    assembled.load.resize(static_cast<std::size_t>(out.rows.nodes()) * dimension);  // zeros where the rank has no cell with a load
-    out.load = std::make_shared<const std::vector<double>>(std::move(assembled.load));
-  }
-  const std::vector<int>& first = share.first().front();
-  for (const int row : prescribed[0])
-    if (row / dimension >= first[ranks.own()] && row / dimension < first[ranks.own() + 1]) out.idle.push_back(row);
-  return out;
-}
-
-}  // namespace
-
-std::unique_ptr<Slice> receive_refined_slice(const Ranks& ranks, const ShareMakers& makers) {
-  std::vector<int> sizes, number, first;
-  ranks.receive(0, sizes), ranks.receive(0, number), ranks.receive(0, first);
-  const int times = sizes[0], dimension = sizes[1];
-  const bool loaded = sizes[2] != 0;
-  RefinedShare share(ranks, makers.refinable(receive_lists(ranks, 0)), dimension, std::move(number), std::move(first));
-  for (int k = 0; k < times; ++k) share.refine({});
-  std::vector<std::vector<int>> prescribed(static_cast<std::size_t>(times) + 1);
-  for (auto& rows : prescribed) ranks.receive(0, rows);
-  const AllOwnFunctions others = receive_own_functions(ranks, 0);
-  RefinedRows own = refined_rows(ranks, share, prescribed, others, dimension, loaded);
-  receive_added(ranks, own.rows);
-  return told_slice(ranks, std::move(own.rows), own.idle, std::move(own.functions), std::move(own.load));
 }
 
 void tell_some(const Ranks& ranks, const Slice& slice) {
@@ -235,68 +147,6 @@ std::unique_ptr<Slice> RankSlices::share_out(const Shared& matrix) const {
   HalfRows rows = assembled(matrix.makers, std::move(some[0].lists), numbers[0]);
   add(rows, entries_of(0, matrix.added, *numbering_));
   return std::make_unique<Slice>(ranks, std::move(rows), numbers[0].idle, functions[0]);
-}
-
-namespace {
-
-/// Rows, by the numbering, of the components that a level does not have as unknowns.
-std::vector<int> prescribed_rows(const SharedList<int>& unknown, const std::vector<int>& number, int dimension) {
-  std::vector<int> rows;
-  for (std::size_t at = 0; at < unknown.size(); ++at)
-    if (unknown[at] < 0) rows.push_back(number[at / dimension] * dimension + static_cast<int>(at) % dimension);
-  return rows;
-}
-
-/// The nodes of a level by the numbers of those whose mean they are.
-Rows means_by_number(const algebra::CoarseFunctions& functions, const std::vector<int>& number) {
-  Rows means;
-  std::vector<int> row;
-  for (int i = 0; i < functions.nodes(); ++i) {
-    for (const int p : functions.of(i)) row.push_back(number[p]);
-    means.append_columns(row);
-  }
-  return means;
-}
-
-}  // namespace
-
-std::unique_ptr<Slice> RankSlices::share_out(const Refined& matrix) {
-  const Ranks& ranks = workers_.ranks();
-  const Numbering base(matrix.base.coupling, ranks.count());
-  const int d = matrix.coarse.front().dimension;
-  std::vector<int> first = base.first(0);
-  for (int& row : first) row /= d;
-  workers_.tell(Task::refined_slice);
-  Share own;
-  std::vector<int> own_number;
-  for (int r = ranks.count() - 1; r >= 0; --r) {
-    std::vector<char> of_rank(base.slot().size());
-    for (std::size_t i = 0; i < of_rank.size(); ++i) of_rank[i] = base.slot()[i] >= base.first(0)[r] && base.slot()[i] < base.first(0)[r + 1];
-    own = matrix.base.share(of_rank), own_number.clear();
-    for (std::size_t k = 0; k < own.unknowns.size(); k += d) own_number.push_back(base.slot()[own.unknowns[k]] / d);
-    if (r == 0) break;
-    ranks.send(r, std::vector<int>{matrix.times, d, matrix.loaded}), ranks.send(r, own_number), ranks.send(r, first);
-    send(ranks, r, own.lists);
-  }
-  RefinedShare share(ranks, matrix.base.makers.refinable(std::move(own.lists)), d, std::move(own_number), std::move(first));
-  std::vector<std::vector<int>> number(1), prescribed;  // by level
-  for (std::size_t i = 0; i < base.slot().size(); i += d) number[0].push_back(base.slot()[i] / d);
-  for (int level = matrix.times - 1; level >= 0; --level) number.insert(number.begin(), share.refine(means_by_number(matrix.coarse[level], number.front())));
-  for (int level = 0; level <= matrix.times; ++level)
-    prescribed.push_back(prescribed_rows(level == 0 ? matrix.coarse[0].row : matrix.coarse[level - 1].column, number[level], d));
-  numbering_ = std::make_shared<const Numbering>(share.first(), number, matrix.coarse.front(), base);
-  const std::vector of_base(matrix.coarse.begin() + matrix.times, matrix.coarse.end());
-  AllOwnFunctions others;
-  for (int r = ranks.count() - 1; r >= 0; --r) {
-    others = own_functions(of_base, base, r);
-    if (r == 0) break;
-    for (const auto& rows : prescribed) ranks.send(r, rows);
-    send(ranks, r, others);
-    send(ranks, r, entries_of(r, matrix.base.added, *numbering_));
-  }
-  RefinedRows rows = refined_rows(ranks, share, prescribed, others, d, matrix.loaded);
-  add(rows.rows, entries_of(0, matrix.base.added, *numbering_));
-  return std::make_unique<Slice>(ranks, std::move(rows.rows), rows.idle, std::move(rows.functions), std::move(rows.load));
 }
 
 void RankSlices::take_diagonal() {

@@ -12,10 +12,23 @@
 
 namespace dotyk::multigrid {
 
+/// The cells of a process once more, refined as they were when the matrix was made, and a displacement of their nodes.
+struct VisitedCells {
+  static constexpr int kLayers = 3;  ///< about own nodes
+  const algebra::Refinable& cells;
+  const std::vector<int>& number;  ///< of each node, among those of all processes
+  int first, end;                  ///< own nodes have these numbers
+  const std::vector<double>& u;    ///< node × dimension, prescribed components too
+  int rank;
+};
+/// What they are visited for: see makers of visits in script/.
+enum class VisitFor : int { estimate, write };
+
 /// What a process makes of a share.
 struct ShareMakers {
   algebra::StoredMatrix (*assemble)(Lists lists);                        ///< the lower triangle of its matrix
   std::unique_ptr<algebra::Refinable> (*refinable)(Lists lists);         ///< cells that are to be refined first
+  Lists (*visit)(VisitFor what, const VisitedCells& at, const Lists& said) = nullptr;  ///< what it tells rank 0, which has said something
 };
 
 /// Calls visit(i, j) for pairs, some of them several times. It is called twice and gives the same pairs.
@@ -48,6 +61,17 @@ struct Refined {
   bool loaded;  ///< do shares have a load?
 };
 
+/// Another visit to the cells that ranks have refined.
+struct Visit {
+  std::function<Share(const std::vector<char>& own)> share;  ///< as that of Refined::base, but with VisitedCells::kLayers layers of cells
+  ShareMakers makers;
+  const algebra::Field& u;  ///< it lies with the slices
+  std::vector<int> components;  ///< prescribed ones, node × dimension of all bodies as they are here
+  std::vector<double> values;   ///< of these
+  VisitFor what;
+  Lists said;  ///< what all ranks are told; the last of the whole lists are nodes as they are here, which the ranks learn by their numbers
+};
+
 /// Several ranks share the work where each has enough to do. One process saves memory where there are many unknowns: solvers take the matrix of the slices on
 /// loan. False where the library was not built.
 bool slices_pay_for(double unknowns);
@@ -57,5 +81,7 @@ bool starts();
 std::shared_ptr<const algebra::SlicedMatrix> make_slices(const Shared& matrix);
 /// The same after each rank has refined its share.
 std::shared_ptr<const algebra::SlicedMatrix> make_refined_slices(const Refined& matrix);
+/// Refines the cells of such a matrix once more, on all ranks. Returns what each rank tells.
+std::vector<Lists> visit(const algebra::SlicedMatrix& refined, const Visit& visit);
 
 }  // namespace dotyk::multigrid

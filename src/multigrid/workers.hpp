@@ -8,7 +8,7 @@
 
 namespace dotyk::multigrid {
 
-enum class Task : int { make, set, solve, drop, slice, refined_slice, multiply, some, drop_slice, vectors, order, get, put, get_some, set_some, interpolate, drop_vectors, end };
+enum class Task : int { make, set, solve, drop, slice, refined_slice, visit, multiply, some, drop_slice, vectors, order, get, put, get_some, set_some, interpolate, drop_vectors, end };
 
 /// How rank 0 tells the other ranks what to do for one solver, for the slices of one matrix, or for some vectors. The data of a task are sent after it.
 class Workers {

@@ -29,6 +29,7 @@
 #include "script/guard/process_limits.hpp"
 #include "script/prompt/prompt.hpp"
 #include "script/guard/safe.hpp"
+#include "script/visits.hpp"
 
 namespace {
 
@@ -205,7 +206,7 @@ int main(int count, char** words) {
     const dotyk::multigrid::RankAmong place = dotyk::multigrid::rank_by_mpirun();
     const bool spawned = count == 2 && std::string(words[1]) == "--worker";  // by dotyk.ranks
     if (place.rank > 0 || spawned) {
-      dotyk::multigrid::work_for_rank_0(spawned, {dotyk::elasticity::assemble_share, dotyk::elasticity::refinable_share});
+      dotyk::multigrid::work_for_rank_0(spawned, {dotyk::elasticity::assemble_share, dotyk::elasticity::refinable_share, dotyk::script::visit});
       return 0;
     }
     dotyk::multigrid::take_word_worker();

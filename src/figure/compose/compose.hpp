@@ -59,6 +59,19 @@ CellShape cell_shape(const mesh::Mesh& mesh);
 // corner, two contacts) the one with the greatest pressure is shown, else that with the least gap.
 GridFile compose_grid(const scene::Solution& solution, const std::string& file);
 
+// The first three of these arrays, node by node.
+class NodeArrays {
+ public:
+  void add(const Vec3& displacement, const elasticity::Stress& stress);
+  std::vector<GridArray> all() && { return {std::move(displacement_), std::move(stress_), std::move(von_mises_)}; }
+
+ private:
+  GridArray displacement_{"displacement", {"x", "y", "z"}, {}}, stress_{"stress", {"xx", "yy", "zz", "xy", "yz", "xz"}, {}}, von_mises_{"von_mises", {""}, {}};
+};
+// The others: of a solution, empty where the scene has no contact; as they are at so many nodes where there is none.
+std::vector<GridArray> contact_arrays(const scene::Solution& solution);
+std::vector<GridArray> contact_arrays(std::size_t nodes);
+
 // 1, 2 or 5 times a power of ten, at least 1, such that the greatest displacement comes to 4 to
 // 10 % of the scene's size; less where bodies that crossed a gap would be drawn into each other, or
 // those that an interference presses apart from each other.

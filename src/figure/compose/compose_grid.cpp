@@ -35,44 +35,10 @@ void add_body(const Solution& s, int index, std::size_t first, GridFile& file) {
 }
 
 void add_fields(const Solution& s, GridFile& file) {
-  GridArray displacement{"displacement", {"x", "y", "z"}, {}}, stress{"stress", {"xx", "yy", "zz", "xy", "yz", "xz"}, {}}, von_mises{"von_mises", {""}, {}};
+  NodeArrays arrays;
   for (int b = 0; b < static_cast<int>(s.scene().bodies.size()); ++b)
-    for (int n = 0; n < s.scene().bodies[b]->mesh->node_count(); ++n) {
-      const Vec3 u = mesh::at_node(s.displacement(b), n, s.scene().dimension());
-      const elasticity::Stress& at_node = s.stress(b)[n];
-      displacement.values.insert(displacement.values.end(), u.begin(), u.end());
-      for (const int v : {0, 1, 2, 5, 3, 4}) stress.values.push_back(at_node[v]);  // ours is xx yy zz yz xz xy
-      von_mises.values.push_back(elasticity::von_mises(at_node));
-    }
-  file.arrays = {std::move(displacement), std::move(stress), std::move(von_mises)};
-}
-
-void add_contacts(const Solution& s, const std::vector<std::size_t>& first, GridFile& file) {
-  GridArray pressure{"contact_pressure", {""}, std::vector<double>(first.back(), 0.0)};
-  GridArray gap{"contact_gap", {""}, std::vector<double>(first.back(), NAN)};
-  GridArray status{"contact_status", {""}, std::vector<double>(first.back(), -1.0)};
-  const auto show = [&](std::size_t node, const scene::ContactNode& n) {
-    const double p = pressure.values[node];
-    if (status.values[node] >= 0 && (p > n.pressure || (p == n.pressure && gap.values[node] <= n.gap))) return;
-    pressure.values[node] = n.pressure;
-    gap.values[node] = n.gap;
-    status.values[node] = static_cast<int>(n.status);
-  };
-  bool any = false;
-  for (const auto& contact : s.scene().contacts) {
-    if (contact->kind != Contact::Kind::contact) continue;
-    any = true;
-    const auto nodes = s.contact(*contact).nodes;
-    const int one = s.scene().index_of(contact->first.body.get());
-    const int other = s.scene().index_of(contact->second.body.get());
-    for (std::size_t k = 0; k < nodes.size(); ++k) {
-      show(first[one] + nodes[k].node, nodes[k]);
-      if (other >= 0 && contact->pairing == contact::Pairing::matching)
-        show(first[other] + contact->rows[k].partners.front().node, nodes[k]);
-    }
-  }
-  for (GridArray* array : {&pressure, &gap, &status})
-    if (any) file.arrays.push_back(std::move(*array));
+    for (int n = 0; n < s.scene().bodies[b]->mesh->node_count(); ++n) arrays.add(mesh::at_node(s.displacement(b), n, s.scene().dimension()), s.stress(b)[n]);
+  file.arrays = std::move(arrays).all();
 }
 
 /// Leaves out points that no cell has.
@@ -98,12 +64,49 @@ void drop_stray_points(GridFile& file) {
 
 }  // namespace
 
+void NodeArrays::add(const Vec3& u, const elasticity::Stress& at_node) {
+  displacement_.values.insert(displacement_.values.end(), u.begin(), u.end());
+  for (const int v : {0, 1, 2, 5, 3, 4}) stress_.values.push_back(at_node[v]);  // ours is xx yy zz yz xz xy
+  von_mises_.values.push_back(elasticity::von_mises(at_node));
+}
+
+std::vector<GridArray> contact_arrays(std::size_t nodes) {
+  return {{"contact_pressure", {""}, std::vector<double>(nodes, 0.0)}, {"contact_gap", {""}, std::vector<double>(nodes, NAN)}, {"contact_status", {""}, std::vector<double>(nodes, -1.0)}};
+}
+
+std::vector<GridArray> contact_arrays(const Solution& s) {
+  const std::vector<std::size_t> first = first_nodes(s.scene());
+  std::vector<GridArray> arrays = contact_arrays(first.back());
+  GridArray &pressure = arrays[0], &gap = arrays[1], &status = arrays[2];
+  const auto show = [&](std::size_t node, const scene::ContactNode& n) {
+    const double p = pressure.values[node];
+    if (status.values[node] >= 0 && (p > n.pressure || (p == n.pressure && gap.values[node] <= n.gap))) return;
+    pressure.values[node] = n.pressure;
+    gap.values[node] = n.gap;
+    status.values[node] = static_cast<int>(n.status);
+  };
+  bool any = false;
+  for (const auto& contact : s.scene().contacts) {
+    if (contact->kind != Contact::Kind::contact) continue;
+    any = true;
+    const auto nodes = s.contact(*contact).nodes;
+    const int one = s.scene().index_of(contact->first.body.get());
+    const int other = s.scene().index_of(contact->second.body.get());
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      show(first[one] + nodes[k].node, nodes[k]);
+      if (other >= 0 && contact->pairing == contact::Pairing::matching)
+        show(first[other] + contact->rows[k].partners.front().node, nodes[k]);
+    }
+  }
+  return any ? arrays : std::vector<GridArray>();
+}
+
 GridFile compose_grid(const Solution& s, const std::string& name) {
   GridFile file{name, {}, {}, {}};
   const auto first = first_nodes(s.scene());
   for (int b = 0; b < static_cast<int>(s.scene().bodies.size()); ++b) add_body(s, b, first[b], file);
   add_fields(s, file);
-  add_contacts(s, first, file);
+  for (GridArray& array : contact_arrays(s)) file.arrays.push_back(std::move(array));
   if (std::ranges::any_of(s.scene().bodies, [](const auto& body) { return body->unrefined != nullptr; })) drop_stray_points(file);
   return file;
 }

@@ -157,6 +157,7 @@ void render(const GridFile& file) {
   }
   const std::size_t asked = file.pieces > 0 ? file.pieces : (cells + kMillion - 1) / kMillion, pieces = std::clamp<std::size_t>(asked, 1, most_pieces);
   std::filesystem::remove(place_to_write(file.file));
+  if (!file.written.empty()) return write_whole_file(file.file, list_of(file, file.written));
   std::vector<std::string> names;
   for (std::size_t k = 0; k < pieces; ++k) {
     names.push_back(text(place.stem().string(), "_", k, ".vtu"));

@@ -290,6 +290,7 @@ struct GridFile {
   std::vector<GridBody> bodies;
   std::vector<GridArray> arrays;
   int pieces = 0;                       // of a .pvtu; 0: one for each million cells
+  std::vector<std::string> written = {};  // of a .pvtu, files that are there already: it lists them, and its arrays need no values
 };
 
 // ---------------------------------------------------------------- drawing

@@ -66,6 +66,17 @@ Rows by_number(const Buckets& means, const std::vector<int>& number) {
   return all;
 }
 
+/// Flagged nodes in an order that depends on what they are the means of alone.
+std::vector<int> own_in_order(const Rows& means, const std::vector<char>& own) {
+  std::vector<int> nodes;
+  for (std::size_t i = 0; i < own.size(); ++i)
+    if (own[i]) nodes.push_back(static_cast<int>(i));
+  std::ranges::sort(nodes, [&](int a, int b) {
+    return std::ranges::lexicographical_compare(columns_of(means, static_cast<std::size_t>(a)), columns_of(means, static_cast<std::size_t>(b)));
+  });
+  return nodes;
+}
+
 /// The first of each rank, and the number of all, from the number of own ones. Collective.
 std::vector<int> firsts(const Ranks& ranks, int own) {
   std::vector<int> first = ranks.gather(own);
@@ -76,8 +87,8 @@ std::vector<int> firsts(const Ranks& ranks, int own) {
 
 }  // namespace
 
-RefinedShare::RefinedShare(const Ranks& ranks, std::unique_ptr<algebra::Refinable> cells, int dimension, std::vector<int> number, std::vector<int> first)
-    : ranks_(ranks), cells_(std::move(cells)), dimension_(dimension), number_(std::move(number)), first_{std::move(first)} {}
+RefinedShare::RefinedShare(const Ranks& ranks, std::unique_ptr<algebra::Refinable> cells, int dimension, std::vector<int> number, std::vector<int> first, int layers)
+    : ranks_(ranks), cells_(std::move(cells)), dimension_(dimension), layers_(layers), number_(std::move(number)), first_{std::move(first)} {}
 
 std::vector<int> RefinedShare::refine(const Rows& asked) {
   const Rows means = by_number(cells_->refine(), number_);
@@ -89,20 +100,20 @@ std::vector<int> RefinedShare::refine(const Rows& asked) {
   for (std::size_t i = 0; i < own.size(); ++i) own[i] = decides(columns_of(means, i)) >= begin && decides(columns_of(means, i)) < end;
   std::vector<int> finer = firsts(ranks_, static_cast<int>(std::ranges::count(own, 1)));
 
-  const std::vector<int> before = cells_->keep(own);
+  const std::vector<int> before = cells_->keep(own, layers_), in_order = own_in_order(means, own);
   std::vector<int> numbers(before.size() + asked.starts.size() - 1), number(own.size(), -1);
   Rows own_means;
   Questions questions(ranks_);
-  for (std::size_t k = 0, next = finer[ranks_.own()]; k < before.size(); ++k) {
+  for (std::size_t k = 0; k < in_order.size(); ++k) {
+    const auto of_node = columns_of(means, static_cast<std::size_t>(in_order[k]));
+    number[in_order[k]] = finer[ranks_.own()] + static_cast<int>(k);
+    own_means.columns.insert(own_means.columns.end(), of_node.begin(), of_node.end());
+    own_means.starts.push_back(static_cast<int>(own_means.columns.size()));
+  }
+  for (std::size_t k = 0; k < before.size(); ++k) {
     const auto i = static_cast<std::size_t>(before[k]);
-    const auto of_node = columns_of(means, i);
-    if (own[i]) {
-      numbers[k] = number[i] = static_cast<int>(next++);
-      own_means.columns.insert(own_means.columns.end(), of_node.begin(), of_node.end());
-      own_means.starts.push_back(static_cast<int>(own_means.columns.size()));
-    } else {
-      questions.ask(rank_of(of_node), of_node, k);
-    }
+    if (own[i]) numbers[k] = number[i];
+    else questions.ask(rank_of(columns_of(means, i)), columns_of(means, i), k);
   }
   for (std::size_t a = 0; a + 1 < asked.starts.size(); ++a) questions.ask(rank_of(columns_of(asked, a)), columns_of(asked, a), before.size() + a);
   const Buckets decided(end - begin, [&](auto&& put) {
@@ -135,6 +146,29 @@ OwnFunctions RefinedShare::functions(int level, const PrescribedBits& prescribed
   }
   for (const int p : means.columns) own.means.push_back(p * OwnFunctions::kComponents + (all & ~bits_of(p, coarse_prescribed)));
   return own;
+}
+
+std::vector<double> RefinedShare::at_nodes(const std::vector<double>& own) const {
+  const std::vector<int>& first = first_.front();
+  const auto d = static_cast<std::size_t>(dimension_);
+  std::vector<double> all(number_.size() * d);
+  std::vector<std::vector<int>> asked(static_cast<std::size_t>(ranks_.count())), places = asked;
+  const auto copy = [&](int number, double* to) { std::copy_n(own.begin() + static_cast<std::ptrdiff_t>((number - first[ranks_.own()]) * d), d, to); };
+  for (std::size_t k = 0; k < number_.size(); ++k) {
+    const auto rank = static_cast<std::size_t>(std::ranges::upper_bound(first, number_[k]) - first.begin()) - 1;
+    if (static_cast<int>(rank) == ranks_.own()) copy(number_[k], all.data() + k * d);
+    else asked[rank].push_back(number_[k]), places[rank].push_back(static_cast<int>(k));
+  }
+  const auto of_others = ranks_.exchange(asked);
+  std::vector<std::vector<double>> told(asked.size());
+  for (std::size_t r = 0; r < told.size(); ++r) {
+    told[r].resize(of_others[r].size() * d);
+    for (std::size_t k = 0; k < of_others[r].size(); ++k) copy(of_others[r][k], told[r].data() + k * d);
+  }
+  told = ranks_.exchange(told);
+  for (std::size_t r = 0; r < told.size(); ++r)
+    for (std::size_t k = 0; k < places[r].size(); ++k) std::copy_n(told[r].begin() + static_cast<std::ptrdiff_t>(k * d), d, all.begin() + static_cast<std::ptrdiff_t>(places[r][k] * d));
+  return all;
 }
 
 RefinedShare::Assembled RefinedShare::assemble(const PrescribedBits& prescribed) {

@@ -21,10 +21,11 @@ PrescribedBits prescribed_bits(const std::vector<int>& rows, int dimension);
 /// rank that owns a node has all cells about it.
 class RefinedShare {
  public:
-  /// `dimension`: components of a node; `number`: of each node of the cells; `first`: of each rank its first node, and the number of all.
-  RefinedShare(const Ranks& ranks, std::unique_ptr<algebra::Refinable> cells, int dimension, std::vector<int> number, std::vector<int> first);
+  /// `dimension`: components of a node; `number`: of each node of the cells; `first`: of each rank its first node, and the number of all; `layers`: of cells about
+  /// own nodes that are given and kept.
+  RefinedShare(const Ranks& ranks, std::unique_ptr<algebra::Refinable> cells, int dimension, std::vector<int> number, std::vector<int> first, int layers = 1);
 
-  /// Refines once, and keeps the cells about own nodes. `asked`: of any nodes of the finer mesh, the numbers of the nodes whose mean each is. Returns the numbers
+  /// Refines once, and keeps the cells about own nodes. The numbers do not depend on how many layers there are. `asked`: of any nodes of the finer mesh, the numbers of the nodes whose mean each is. Returns the numbers
   /// of these nodes. Collective.
   std::vector<int> refine(const Rows& asked);
 
@@ -32,6 +33,11 @@ class RefinedShare {
   const std::vector<std::vector<int>>& first() const { return first_; }
   /// The rows of P, see OwnFunctions, that lead from the level after `level` to it.
   OwnFunctions functions(int level, const PrescribedBits& prescribed, const PrescribedBits& coarse_prescribed) const;
+  const algebra::Refinable& cells() const { return *cells_; }
+  const std::vector<int>& number() const { return number_; }  ///< of each node of the cells
+  /// A vector of own rows of the finest level at the nodes of the cells. Collective.
+  std::vector<double> at_nodes(const std::vector<double>& own) const;
+
   struct Assembled {
     HalfRows rows;
     std::vector<double> load;  ///< empty: the cells have none
@@ -42,7 +48,7 @@ class RefinedShare {
  private:
   const Ranks& ranks_;
   std::unique_ptr<algebra::Refinable> cells_;
-  const int dimension_;
+  const int dimension_, layers_;
   std::vector<int> number_;               ///< of each node of the cells
   std::vector<std::vector<int>> first_;
   std::vector<Rows> means_;               ///< by level, of own nodes: numbers of the level after it

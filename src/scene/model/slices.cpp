@@ -44,13 +44,14 @@ struct Source {
 };
 
 /// What a rank makes the flagged rows from.
-Share share_of_all(const std::vector<Source>& sources, const std::vector<char>& own) {
+Share share_of_all(const std::vector<Source>& sources, const std::vector<char>& own, int layers = 1) {
   std::vector<Share> of_bodies;
-  for (const Source& source : sources) {
+  for (std::size_t b = 0; b < sources.size(); ++b) {
+    const Source& source = sources[b];
     const auto begin = own.begin() + source.first;
     const std::vector<char> of_body(begin, begin + source.numbering.count());
     if (std::ranges::none_of(of_body, [](char flag) { return flag; })) continue;
-    of_bodies.push_back(elasticity::share(source.mesh, source.material, source.force, source.numbering, of_body));
+    of_bodies.push_back(elasticity::share(source.mesh, source.material, source.force, source.numbering, of_body, static_cast<int>(b), layers));
     for (int& unknown : of_bodies.back().unknowns) unknown += source.first;
   }
   return elasticity::joined(std::move(of_bodies));
@@ -86,14 +87,27 @@ algebra::SparseRows rows_of_coarse(const Model& model, std::span<const algebra::
   return algebra::from_triplets<algebra::SparseRows>(problem.rows(), d * coarse.back().coarse_nodes(), entries);
 }
 
+/// Of all components of the coarse bodies' nodes.
+std::vector<elasticity::Numbering> coarse_numbering(const Model& model) {
+  std::vector<elasticity::Numbering> numbering;
+  for (const Body& body : model.bodies) numbering.push_back(elasticity::number(*body.unrefined->mesh, std::vector<char>(body.unrefined->mesh->coordinates.size(), 0), {}));
+  return numbering;
+}
+
+std::vector<Source> coarse_sources(const Model& model, const std::vector<elasticity::Numbering>& numbering) {
+  std::vector<Source> sources;
+  for (std::size_t b = 0, first = 0; b < numbering.size(); first += static_cast<std::size_t>(numbering[b].count()), ++b) {
+    const Unrefined& before = *model.bodies[b].unrefined;
+    sources.push_back({*before.mesh, before.material, before.force, numbering[b], static_cast<int>(first)});
+  }
+  return sources;
+}
+
 /// K after the ranks have refined the bodies, all of them so many times.
 std::shared_ptr<const algebra::SlicedMatrix> refined_slices(const Model& model, const std::vector<algebra::CoarseFunctions>& functions, const algebra::Triplets& springs, int times) {
   if (std::ssize(functions) < times) throw std::logic_error("bodies refined by the ranks, whose coarser meshes are not known");
-  std::vector<elasticity::Numbering> numbering;  // of all components of the coarse bodies' nodes
-  for (const Body& body : model.bodies) numbering.push_back(elasticity::number(*body.unrefined->mesh, std::vector<char>(body.unrefined->mesh->coordinates.size(), 0), {}));
-  std::vector<Source> sources;
-  for (std::size_t b = 0, first = 0; b < numbering.size(); first += static_cast<std::size_t>(numbering[b].count()), ++b)
-    sources.push_back({*model.bodies[b].unrefined->mesh, model.bodies[b].unrefined->material, model.bodies[b].unrefined->force, numbering[b], static_cast<int>(first)});
+  const std::vector<elasticity::Numbering> numbering = coarse_numbering(model);
+  const std::vector<Source> sources = coarse_sources(model, numbering);
   const int d = functions.front().dimension, components = d * functions[times - 1].coarse_nodes();
   std::vector<int> all(static_cast<std::size_t>(components)), node;
   std::iota(all.begin(), all.end(), 0);
@@ -124,6 +138,24 @@ void assemble_slices(Model& model) {
   const std::vector<int> nodes = problem::nodes(problem);
   const multigrid::Coupling coupling{nodes, functions, problem.B, [&](const auto& visit) { each_pair_of_cells(sources, visit); }};
   take_slices(problem, multigrid::make_slices({coupling, [&](const std::vector<char>& own) { return share_of_all(sources, own); }, kMakers, springs}));
+}
+
+std::vector<Lists> visit_refined(const Model& model, const problem::Displacement& u, multigrid::VisitFor what, decltype(multigrid::ShareMakers::visit) make, Lists said) {
+  const algebra::SlicedMatrix* slices = problem::slices(model.problem);
+  if (!slices || !u.there()) throw InputError("the ranks keep the displacement of the last step alone inside bodies with refine: ask it of the last solution");
+  const std::vector<elasticity::Numbering> numbering = coarse_numbering(model);
+  const std::vector<Source> sources = coarse_sources(model, numbering);
+  std::vector<int> components;
+  std::vector<double> values;
+  int first = 0;
+  for (std::size_t b = 0; b < model.bodies.size(); first += static_cast<int>(model.numbering[b].unknown.size()), ++b)
+    for (std::size_t k = 0; k < model.numbering[b].unknown.size(); ++k)
+      if (const double value = model.numbering[b].value(k); model.numbering[b].unknown[k] < 0 && value != 0) components.push_back(first + static_cast<int>(k)), values.push_back(value);
+  multigrid::ShareMakers makers = kMakers;
+  makers.visit = make;
+  const auto u_there = problem::field(model.problem, u);
+  return multigrid::visit(*slices, {[&](const std::vector<char>& own) { return share_of_all(sources, own, multigrid::VisitedCells::kLayers); }, makers, *u_there,
+                                    std::move(components), std::move(values), what, std::move(said)});
 }
 
 }  // namespace dotyk::scene

@@ -175,7 +175,8 @@ class Lumping {
   /// Bw.
   Vector response(const Vector& defect) const {
     Monitor quiet;
-    solver::HeldStiffness stiffness(problem_, problem::rigid_motions(problem_), solver::factor({}), quiet);
+    const auto make = problem_.hides() ? solver::multigrid(solver::Levels::meshes) : solver::factor({});
+    solver::HeldStiffness stiffness(problem_, problem::rigid_motions(problem_), make, quiet);
     if (!stiffness.factor(spring_, std::vector<char>(problem_.unknowns(), 0))) return Vector::Zero(s_.rows());
     return problem_.B * stiffness.solve(problem_.B.transpose() * defect);
   }

@@ -1,12 +1,15 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
+#include <optional>
 
 #include "base/error.hpp"
 #include "base/moderate.hpp"
 #include "base/text.hpp"
 #include "scene/result/boundary_tractions.hpp"
 #include "scene/result/energy_norm.hpp"
+#include "scene/result/inner_estimate.hpp"
 
 namespace dotyk::scene {
 namespace {
@@ -110,7 +113,6 @@ void require_squares(const elasticity::MaterialField& material, int cells, const
 }  // namespace
 
 const ErrorEstimate& Solution::error_estimate() const {
-  require_whole(*scene_, "an error estimate");
   if (!error_estimate_) error_estimate_ = make_error_estimate();
   return *error_estimate_;
 }
@@ -145,6 +147,8 @@ ErrorEstimate Solution::make_error_estimate() const {
   }
   ErrorEstimate estimate;
   double solution = 0;
+  std::optional<InnerEstimate> inner;  // of all cells that ranks have refined
+  if (model_.problem.hides()) inner = inner_estimate(*this);
   for (int b = 0; b < count; ++b) {
     const Body& own = body(b);
     require_squares(own.material, own.mesh->cell_count(), stress(b));
@@ -154,6 +158,7 @@ ErrorEstimate Solution::make_error_estimate() const {
                                               own.material.varies() ? nullptr : &stress(b));
     estimate.cells.push_back(std::move(of_body.cells));
     solution += squared_energy_norm(*this, b, displacement(b));
+    if (inner) solution += inner->solution[b] - std::reduce(of_body.solution.begin(), of_body.solution.end());
   }
   for (std::size_t c = 0; c < results.size(); ++c) {
     if (!results[c]) continue;
@@ -174,6 +179,7 @@ ErrorEstimate Solution::make_error_estimate() const {
     for (std::size_t c = 0; c < lumping[b].size(); ++c) estimate.cells[b][c].laws += lumping[b][c];
   for (const auto& cells : estimate.cells)
     for (const ErrorParts& parts : cells) estimate.parts += parts;
+  if (inner) estimate.parts.recovery = inner->parts.recovery, estimate.parts.bulk = inner->parts.bulk, estimate.parts.jump = inner->parts.jump;
   const double square = estimate.parts.sum(), whole = square + solution;
   estimate.absolute = std::sqrt(square);
   estimate.relative = whole > 0 ? std::sqrt(square / whole) : 0;

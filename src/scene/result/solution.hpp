@@ -81,7 +81,7 @@ struct ErrorEstimate {
   double absolute = 0;  ///< √Σ of the parts: √(force·length)
   double relative = 0;  ///< absolute / √(absolute² + ‖u_h‖²)
   elasticity::ErrorParts parts;                              ///< squares
-  std::vector<std::vector<elasticity::ErrorParts>> cells;    ///< body → cell → its share
+  std::vector<std::vector<elasticity::ErrorParts>> cells;    ///< body → cell → its share; where ranks refine the bodies, of cells here, right at the boundary alone
 };
 
 class Solution;

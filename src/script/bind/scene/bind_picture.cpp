@@ -1,6 +1,8 @@
 // Pictures of solutions, alone and side by side, and files for ParaView.
 #include "figure/canvas/geometry.hpp"
+#include "base/error.hpp"
 #include "figure/compose/compose.hpp"
+#include "figure/compose/compose_pieces.hpp"
 #include "script/bind/bind.hpp"
 #include "script/bind/figure_keys.hpp"
 
@@ -251,13 +253,19 @@ void bind_picture(Library& library) {
                "numbered by \"body\", with displacement, stress, von_mises and, where there is contact, "
                "contact_pressure, contact_gap and contact_status (0 open, 1 closed, 2 stick, 3 slip, -1 no contact) "
                "at the nodes; of contacts whose nodes do not match at the first part's alone. A .pvtu is a list of files beside it, "
-               "a_0.vtu, a_1.vtu, … of a.pvtu, each with a share of the cells, which many readers take side by side. Of bodies with refine on several ranks the cells at the boundary are written.",
+               "a_0.vtu, a_1.vtu, … of a.pvtu, each with a share of the cells, which many readers take side by side. Of bodies with refine on several ranks a .vtu has the cells at the boundary, a .pvtu all: each rank writes its own.",
        .example = "s:write \"a.vtu\"\ns:write(\"parts.pvtu\", { pieces = 2 })",
        .arguments = {key::file("file", "where to; ends in .vtu or .pvtu, its folder must exist").written().required(),
                      key::table("options", {key::integer("pieces", "files of a .pvtu").within(1, 100000).otherwise("one for each million cells")}, "of a .pvtu")
                          .otherwise("none")},
        .run = [](Call& call) {
-         figure::GridFile grid = figure::compose_grid(*call.self<Solution>(), call.text("file"));
+         const auto s = call.self<Solution>();
+         if (s->model().problem.hides() && call.text("file").ends_with(".pvtu")) {
+           if (call.has("options")) throw InputError("of bodies with refine on several ranks each rank writes a piece; leave the number of pieces away");
+           figure::write_pieces(*s, call.text("file"));
+           return call.text("file");
+         }
+         figure::GridFile grid = figure::compose_grid(*s, call.text("file"));
          if (call.has("options") && call.table("options").has("pieces")) grid.pieces = static_cast<int>(call.table("options").number("pieces"));
          figure::write(grid);
          return call.text("file");

@@ -1,0 +1,25 @@
+// What ranks tell one another when slices are made.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "multigrid/rows/own_rows.hpp"
+#include "multigrid/rows/slice.hpp"
+#include "multigrid/shares/numbering.hpp"
+
+namespace dotyk::multigrid {
+
+void send(const Ranks& ranks, int to, const Lists& lists);
+Lists receive_lists(const Ranks& ranks, int from);
+
+/// Of entries of the lower triangle, by unknowns, those that a rank stores: it has the row or the column.
+Entries entries_of(int rank, const algebra::Triplets& added, const Numbering& numbering);
+void send(const Ranks& ranks, int to, const Entries& entries);
+/// Adds what rank 0 has sent.
+void receive_added(const Ranks& ranks, HalfRows& rows);
+
+/// The slice of a rank other than 0, which learns its diagonal.
+std::unique_ptr<Slice> told_slice(const Ranks& ranks, HalfRows rows, const std::vector<int>& idle, AllOwnFunctions functions, OwnLoad load = nullptr);
+
+}  // namespace dotyk::multigrid
