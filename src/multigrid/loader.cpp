@@ -74,9 +74,9 @@ std::shared_ptr<const algebra::SlicedMatrix> make_refined_slices(const Refined& 
   return std::shared_ptr<const algebra::SlicedMatrix>(door<algebra::SlicedMatrix*(const Refined&)>("dotyk_multigrid_refined_slices")(matrix));
 }
 
-std::vector<Lists> visit(const algebra::SlicedMatrix& refined, const Visit& visit) {
+std::vector<Lists> visit(const Visit& visit) {
   std::vector<Lists> told;
-  door<void(const algebra::SlicedMatrix&, const Visit&, std::vector<Lists>&)>("dotyk_multigrid_visit")(refined, visit, told);
+  door<void(const Visit&, std::vector<Lists>&)>("dotyk_multigrid_visit")(visit, told);
   return told;
 }
 

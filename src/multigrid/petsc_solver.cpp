@@ -189,8 +189,8 @@ DOTYK_DOOR dotyk::algebra::SlicedMatrix* dotyk_multigrid_slices(const dotyk::mul
   const std::lock_guard lock(only_one());
   return new RankSlices(workers_for(static_cast<double>(matrix.coupling.node.size())), matrix);
 }
-DOTYK_DOOR void dotyk_multigrid_visit(const dotyk::algebra::SlicedMatrix& refined, const dotyk::multigrid::Visit& visit, std::vector<dotyk::Lists>& told) {
-  told = dynamic_cast<const dotyk::multigrid::RankSlices&>(refined).visit(visit);
+DOTYK_DOOR void dotyk_multigrid_visit(const dotyk::multigrid::Visit& visit, std::vector<dotyk::Lists>& told) {
+  told = dynamic_cast<dotyk::multigrid::RankVectors&>(*visit.u.where()).visit(visit);
 }
 DOTYK_DOOR dotyk::algebra::SlicedMatrix* dotyk_multigrid_refined_slices(const dotyk::multigrid::Refined& matrix) {
   using namespace dotyk::multigrid;

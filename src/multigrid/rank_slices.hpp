@@ -1,7 +1,6 @@
 // A matrix in slices, as rank 0 has it.
 #pragma once
 
-#include <map>
 #include <memory>
 #include <vector>
 
@@ -11,14 +10,6 @@
 #include "multigrid/workers.hpp"
 
 namespace dotyk::multigrid {
-
-/// How ranks have refined the bodies that a matrix is of.
-struct Refinement {
-  Numbering base;         ///< of the coarse bodies
-  int times, dimension;
-  std::vector<int> node;  ///< the number of each node that rank 0 knows
-  std::vector<int> first() const;  ///< node of each rank in `base`, and the number of all
-};
 
 /// Each rank has a Slice. The other ranks do what rank 0 tells them.
 class RankSlices final : public algebra::SlicedMatrix {
@@ -36,9 +27,6 @@ class RankSlices final : public algebra::SlicedMatrix {
   bool holds(const algebra::Vectors& vectors) const override;
   void take_product(const algebra::LongField& u, bool precisely, algebra::Field& from) const override;
   void add_load(algebra::Field& to) const override;
-
-  /// As visit() in slices.hpp, of a matrix that is Refined.
-  std::vector<Lists> visit(const Visit& visit) const;
 
   const Workers& workers() const { return workers_; }
   const std::shared_ptr<const Numbering>& numbering() const { return numbering_; }
@@ -61,7 +49,6 @@ class RankSlices final : public algebra::SlicedMatrix {
 
   Workers workers_;
   std::shared_ptr<const Numbering> numbering_;
-  std::shared_ptr<const Refinement> refinement_;  ///< null: the ranks have refined nothing
   std::unique_ptr<Slice> slice_;
   double entries_ = 0;  ///< of all ranks
   bool made_ = false;  ///< to its end: the other ranks have their slices
@@ -71,7 +58,6 @@ class RankSlices final : public algebra::SlicedMatrix {
 std::unique_ptr<Slice> receive_slice(const Ranks& ranks, const ShareMakers& makers);
 std::unique_ptr<Slice> receive_refined_slice(const Ranks& ranks, const ShareMakers& makers);
 std::unique_ptr<Slice> receive_rest(const Ranks& ranks, HalfRows rows, AllOwnFunctions functions, OwnLoad load);
-void visit_for_rank_0(const Ranks& ranks, const ShareMakers& makers, std::map<int, algebra::VectorParts>& vectors);
 void tell_some(const Ranks& ranks, const Slice& slice);
 
 }  // namespace dotyk::multigrid

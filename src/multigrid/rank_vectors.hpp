@@ -1,6 +1,7 @@
 // Vectors in parts with the ranks, as rank 0 has them.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -22,6 +23,9 @@ class RankVectors final : public algebra::Vectors {
   void put(int v, const algebra::Vector& numbers) override;
   algebra::Vector some(int v, const std::vector<int>& unknowns) override;
   void set_some(int v, const std::vector<int>& unknowns, const algebra::Vector& numbers) override;
+
+  /// As visit() in slices.hpp, where the ranks have refined bodies.
+  std::vector<Lists> visit(const Visit& visit);
 
   int number() const { return workers_.number(); }  ///< by which the ranks know them
   const Numbering& numbering() const { return *numbering_; }
@@ -46,6 +50,7 @@ class RankVectors final : public algebra::Vectors {
 /// What ranks other than 0 have, and what they do for these tasks.
 algebra::VectorParts receive_vectors(const Ranks& ranks);
 void run_order(const Ranks& ranks, algebra::VectorParts& vectors);
+void visit_for_rank_0(const Ranks& ranks, const ShareMakers& makers, std::map<int, algebra::VectorParts>& vectors);
 void exchange_numbers(const Ranks& ranks, Task task, algebra::VectorParts& vectors);
 
 }  // namespace dotyk::multigrid

@@ -153,7 +153,7 @@ std::unique_ptr<Slice> receive_refined_slice(const Ranks& ranks, const ShareMake
 
 std::unique_ptr<Slice> RankSlices::share_out(const Refined& matrix) {
   const Ranks& ranks = workers_.ranks();
-  auto made = std::make_shared<Refinement>(Refinement{{matrix.base.coupling, ranks.count()}, matrix.times, matrix.coarse.front().dimension, {}});
+  const auto made = std::make_shared<Refinement>(Refinement{{matrix.base.coupling, ranks.count()}, matrix.times, matrix.coarse.front().dimension, {}});
   const Numbering& base = made->base;
   const int d = made->dimension;
   const std::vector<int> first = made->first();
@@ -165,8 +165,8 @@ std::unique_ptr<Slice> RankSlices::share_out(const Refined& matrix) {
   for (int level = matrix.times - 1; level >= 0; --level) number.insert(number.begin(), share.refine(means_by_number(matrix.coarse[level], number.front())));
   for (int level = 0; level <= matrix.times; ++level)
     prescribed.push_back(prescribed_rows(level == 0 ? matrix.coarse[0].row : matrix.coarse[level - 1].column, number[level], d));
-  numbering_ = std::make_shared<const Numbering>(share.first(), number, matrix.coarse.front(), base);
-  made->node = number.front(), refinement_ = made;
+  made->node = number.front();
+  numbering_ = std::make_shared<const Numbering>(share.first(), number, matrix.coarse.front(), made);
   const std::vector of_base(matrix.coarse.begin() + matrix.times, matrix.coarse.end());
   AllOwnFunctions others;
   for (int r = ranks.count() - 1; r >= 0; --r) {
@@ -181,20 +181,20 @@ std::unique_ptr<Slice> RankSlices::share_out(const Refined& matrix) {
   return std::make_unique<Slice>(ranks, std::move(rows.rows), rows.idle, std::move(rows.functions), std::move(rows.load));
 }
 
-std::vector<Lists> RankSlices::visit(const Visit& visit) const {
-  if (!refinement_) throw std::logic_error("slices: cells that ranks have not refined are visited");
+std::vector<Lists> RankVectors::visit(const Visit& visit) {
+  const Refinement* refinement = numbering_->refinement();
+  if (!refinement) throw std::logic_error("vectors: cells that ranks have not refined are visited");
   const std::lock_guard lock(only_one());
   const Ranks& ranks = workers_.ranks();
-  auto& room = dynamic_cast<RankVectors&>(*visit.u.where());
-  const int d = refinement_->dimension;
-  VisitOrder order{refinement_->times, d, room.number(), visit.u.number(), static_cast<int>(visit.what), {}, visit.values, visit.said};
-  for (const int component : visit.components) order.rows.push_back(refinement_->node[component / d] * d + component % d);
+  const int d = refinement->dimension;
+  VisitOrder order{refinement->times, d, number(), visit.u.number(), static_cast<int>(visit.what), {}, visit.values, visit.said};
+  for (const int component : visit.components) order.rows.push_back(refinement->node[component / d] * d + component % d);
   if (!order.said.whole.empty())
-    for (int& node : order.said.whole.back()) node = refinement_->node[node];
+    for (int& node : order.said.whole.back()) node = refinement->node[node];
   return ranks.together([&] {
     workers_.tell(Task::visit);
-    Given own = share_cells(ranks, *refinement_, visit.share, [&](int r) { send(ranks, r, order); });
-    std::vector<Lists> told{visit_own(ranks, std::move(own), order, visit.makers, room.own()[visit.u.number()])};
+    Given own = share_cells(ranks, *refinement, visit.share, [&](int r) { send(ranks, r, order); });
+    std::vector<Lists> told{visit_own(ranks, std::move(own), order, visit.makers, own_[visit.u.number()])};
     for (int r = 1; r < ranks.count(); ++r) told.push_back(receive_lists(ranks, r));
     return told;
   });

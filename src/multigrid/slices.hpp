@@ -21,8 +21,8 @@ struct VisitedCells {
   const std::vector<double>& u;    ///< node × dimension, prescribed components too
   int rank;
 };
-/// What they are visited for: see makers of visits in script/.
-enum class VisitFor : int { estimate, write };
+/// What they are visited for: see script/visits.hpp.
+enum class VisitFor : int { estimate, point, write };
 
 /// What a process makes of a share.
 struct ShareMakers {
@@ -65,7 +65,7 @@ struct Refined {
 struct Visit {
   std::function<Share(const std::vector<char>& own)> share;  ///< as that of Refined::base, but with VisitedCells::kLayers layers of cells
   ShareMakers makers;
-  const algebra::Field& u;  ///< it lies with the slices
+  const algebra::Field& u;  ///< it lies where the slices of such a matrix did
   std::vector<int> components;  ///< prescribed ones, node × dimension of all bodies as they are here
   std::vector<double> values;   ///< of these
   VisitFor what;
@@ -82,6 +82,6 @@ std::shared_ptr<const algebra::SlicedMatrix> make_slices(const Shared& matrix);
 /// The same after each rank has refined its share.
 std::shared_ptr<const algebra::SlicedMatrix> make_refined_slices(const Refined& matrix);
 /// Refines the cells of such a matrix once more, on all ranks. Returns what each rank tells.
-std::vector<Lists> visit(const algebra::SlicedMatrix& refined, const Visit& visit);
+std::vector<Lists> visit(const Visit& visit);
 
 }  // namespace dotyk::multigrid

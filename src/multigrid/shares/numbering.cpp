@@ -211,8 +211,8 @@ Numbering::Numbering(const Numbering& finer, const algebra::CoarseFunctions& fun
 }
 
 Numbering::Numbering(const std::vector<std::vector<int>>& first, const std::vector<std::vector<int>>& number, const algebra::CoarseFunctions& functions,
-                     const Numbering& base)
-    : block_(functions.dimension) {
+                     std::shared_ptr<const Refinement> refinement)
+    : block_(functions.dimension), refinement_(std::move(refinement)) {
   for (std::size_t l = 0; l < number.size(); ++l) {
     std::vector<int> rows, &begin = first_.emplace_back(first[l]);
     for (int& f : begin) f *= block_;
@@ -222,6 +222,7 @@ Numbering::Numbering(const std::vector<std::vector<int>>& first, const std::vect
     else
       for (std::size_t at = 0; at < rows.size(); ++at) (functions.row[at] >= 0 ? slot_ : idle_).push_back(rows[at]);
   }
+  const Numbering& base = refinement_->base;
   functions_.insert(functions_.end(), base.functions_.begin(), base.functions_.end());
   first_.insert(first_.end(), base.first_.begin() + 1, base.first_.end());
   take_unknowns();

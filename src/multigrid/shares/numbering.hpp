@@ -1,6 +1,7 @@
 // Which process has which unknowns.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "base/parallel.hpp"
@@ -8,6 +9,8 @@
 #include "multigrid/slices.hpp"
 
 namespace dotyk::multigrid {
+
+struct Refinement;
 
 /// Numbers the rows of all levels. Unknowns come in blocks of one size, one block a node; a node of the finest level with fewer unknowns has idle rows
 /// beside them. The rows of a rank follow one another.
@@ -20,8 +23,9 @@ class Numbering {
   Numbering(const Numbering& finer, const algebra::CoarseFunctions& functions);
 
   /// Of meshes that the ranks have refined. By level, the finest first: `first` node of each rank, and the number of all; `number` of the nodes of `functions`, and,
-  /// as its last list, of the nodes of the mesh that `base` is of. Rows of nodes that are not among the functions' have no unknowns here.
-  Numbering(const std::vector<std::vector<int>>& first, const std::vector<std::vector<int>>& number, const algebra::CoarseFunctions& functions, const Numbering& base);
+  /// as its last list, of the nodes of the mesh that was refined. Rows of nodes that are not among the functions' have no unknowns here.
+  Numbering(const std::vector<std::vector<int>>& first, const std::vector<std::vector<int>>& number, const algebra::CoarseFunctions& functions,
+            std::shared_ptr<const Refinement> refinement);
 
   int block() const { return block_; }                                   ///< of the finest level
   const std::vector<int>& slot() const { return slot_; }                 ///< row of each unknown
@@ -35,6 +39,8 @@ class Numbering {
   int unknown(int row) const { return unknown_[row]; }  ///< of a row of the finest level; −1: it has none
   /// Are there rows that are not idle, of components whose unknowns have no number here?
   bool hides() const { return slot_.size() + idle_.size() < unknown_.size(); }
+
+  const Refinement* refinement() const { return refinement_.get(); }  ///< null: the ranks have refined nothing
 
   /// What a rank has of a vector, by its rows of the finest level: of_unknown(i), and zero at idle ones.
   template <class Number>
@@ -55,6 +61,15 @@ class Numbering {
   int block_ = 1;
   std::vector<int> slot_, idle_, unknown_;
   std::vector<std::vector<int>> functions_, first_;
+  std::shared_ptr<const Refinement> refinement_;
+};
+
+/// How ranks have refined bodies.
+struct Refinement {
+  Numbering base;         ///< of the coarse bodies
+  int times, dimension;
+  std::vector<int> node;  ///< the number of each node that rank 0 knows
+  std::vector<int> first() const;  ///< node of each rank in `base`, and the number of all
 };
 
 }  // namespace dotyk::multigrid

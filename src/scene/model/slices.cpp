@@ -141,8 +141,7 @@ void assemble_slices(Model& model) {
 }
 
 std::vector<Lists> visit_refined(const Model& model, const problem::Displacement& u, multigrid::VisitFor what, decltype(multigrid::ShareMakers::visit) make, Lists said) {
-  const algebra::SlicedMatrix* slices = problem::slices(model.problem);
-  if (!slices || !u.there()) throw InputError("the ranks keep the displacement of the last step alone inside bodies with refine: ask it of the last solution");
+  if (!u.there()) throw InputError("the displacement inside bodies with refine, which the ranks had, is known no more");
   const std::vector<elasticity::Numbering> numbering = coarse_numbering(model);
   const std::vector<Source> sources = coarse_sources(model, numbering);
   std::vector<int> components;
@@ -153,8 +152,7 @@ std::vector<Lists> visit_refined(const Model& model, const problem::Displacement
       if (const double value = model.numbering[b].value(k); model.numbering[b].unknown[k] < 0 && value != 0) components.push_back(first + static_cast<int>(k)), values.push_back(value);
   multigrid::ShareMakers makers = kMakers;
   makers.visit = make;
-  const auto u_there = problem::field(model.problem, u);
-  return multigrid::visit(*slices, {[&](const std::vector<char>& own) { return share_of_all(sources, own, multigrid::VisitedCells::kLayers); }, makers, *u_there,
+  return multigrid::visit({[&](const std::vector<char>& own) { return share_of_all(sources, own, multigrid::VisitedCells::kLayers); }, makers, *u.there(),
                                     std::move(components), std::move(values), what, std::move(said)});
 }
 

@@ -15,7 +15,7 @@ bool refined_by_ranks(const Model& model);
 void assemble_slices(Model& model);
 
 /// The cells of bodies that ranks have refined, once more on all ranks: `make` on this one, by `what` on the others. `said`: as in multigrid::Visit. Returns what each
-/// rank tells. Throws InputError where u is of a step before the last, whose inner displacements are not kept.
+/// rank tells. Throws InputError where u does not lie with them.
 std::vector<Lists> visit_refined(const Model& model, const problem::Displacement& u, multigrid::VisitFor what, decltype(multigrid::ShareMakers::visit) make, Lists said);
 /// Does a rank own a cell of its share?
 inline bool owns(const multigrid::VisitedCells& at, std::size_t first_node, const mesh::Mesh& mesh, int cell) {

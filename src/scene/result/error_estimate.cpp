@@ -9,7 +9,7 @@
 #include "base/text.hpp"
 #include "scene/result/boundary_tractions.hpp"
 #include "scene/result/energy_norm.hpp"
-#include "scene/result/inner_estimate.hpp"
+#include "scene/result/inner_cells.hpp"
 
 namespace dotyk::scene {
 namespace {

@@ -9,6 +9,7 @@
 #include "base/stopwatch.hpp"
 #include "base/text.hpp"
 #include "problem/free_motions.hpp"
+#include "scene/result/inner_cells.hpp"
 #include "scene/solve/doubts.hpp"
 #include "solver/core/settle.hpp"
 #include "solver/core/verdict.hpp"
@@ -144,17 +145,23 @@ const std::vector<elasticity::Stress>& Solution::stress(int body) const {
   return stress_[body];
 }
 
-Place Solution::place(int body, const Point& x) const {
+std::optional<Place> Solution::place(int body, const Point& x) const {
+  if (!locators_[body]) locators_[body].emplace(*this->body(body).mesh);
+  return locators_[body]->find(x);
+}
+
+InnerValues Solution::inside(int body, const Point& x) const {
   const Body& b = this->body(body);
-  if (!locators_[body]) locators_[body].emplace(*b.mesh);
-  if (const auto found = locators_[body]->find(x)) return *found;
-  const std::string point = "the point " + point_text(x.data(), b.dimension());
-  throw InputError(b.unrefined ? text(point, " lies in no cell at the boundary of '", b.name, "', whose inner cells are with the ranks") : text(point, " lies outside '", b.name, "' at rest"));
+  if (b.unrefined)
+    if (const auto values = inner_values(*this, body, x)) return *values;
+  throw InputError(text("the point ", point_text(x.data(), b.dimension()), " lies outside '", b.name, "' at rest"));
 }
 
 Point Solution::displacement(int body, const Point& x) const {
   const Body& b = this->body(body);
-  const Place at = place(body, x);
+  const auto found = place(body, x);
+  if (!found) return inside(body, x).displacement;
+  const Place& at = *found;
   Point u{0, 0, 0};
   for (int a = 0; a < b.mesh->topology().nodes; ++a)
     u = mesh::plus(u, mesh::times(at.shape[a], mesh::at_node(displacement(body), b.mesh->cell(at.cell)[a], b.dimension())));
@@ -163,7 +170,9 @@ Point Solution::displacement(int body, const Point& x) const {
 
 elasticity::Stress Solution::stress(int body, const Point& x) const {
   const Body& b = this->body(body);
-  const Place at = place(body, x);
+  const auto found = place(body, x);
+  if (!found) return inside(body, x).stress;
+  const Place& at = *found;
   const auto& nodal = stress(body);
   elasticity::Stress s{};
   for (int a = 0; a < b.mesh->topology().nodes; ++a)

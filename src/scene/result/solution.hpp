@@ -85,6 +85,7 @@ struct ErrorEstimate {
 };
 
 class Solution;
+struct InnerValues;
 
 /// What a solution follows in a quasi-static history.
 struct Past {
@@ -169,7 +170,8 @@ class Solution : public std::enable_shared_from_this<Solution> {
   SupportNode support_node(const LawSupport& support, std::size_t node, const SupportRows& rows, int body) const;
   Solution(const Solution& other, algebra::Vector u);
   void take_state(const problem::Problem& problem);
-  Place place(int body, const mesh::Point& x) const;
+  std::optional<Place> place(int body, const mesh::Point& x) const;
+  InnerValues inside(int body, const mesh::Point& x) const;  ///< where the ranks have the cell; throws outside
 
   std::shared_ptr<const Scene> scene_;
   Model model_;

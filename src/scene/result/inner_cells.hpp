@@ -1,6 +1,7 @@
-// The error estimate of cells that ranks have refined.
+// What is asked of cells that ranks have refined. They refine them once more: each question costs as much.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "multigrid/slices.hpp"
@@ -15,7 +16,15 @@ struct InnerEstimate {
 /// Of all ranks. Throws as visit_refined().
 InnerEstimate inner_estimate(const Solution& solution);
 
-/// What a rank makes of its cells for that.
+struct InnerValues {
+  mesh::Point displacement{};
+  elasticity::Stress stress{};
+};
+/// At a point of a body; empty outside. Throws likewise.
+std::optional<InnerValues> inner_values(const Solution& solution, int body, const mesh::Point& x);
+
+/// What a rank makes of its cells for these.
 Lists estimate_cells(const multigrid::VisitedCells& at, const Lists& said);
+Lists values_at_point(const multigrid::VisitedCells& at, const Lists& said);
 
 }  // namespace dotyk::scene
