@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -206,6 +207,7 @@ int main(int count, char** words) {
     const dotyk::multigrid::RankAmong place = dotyk::multigrid::rank_by_mpirun();
     const bool spawned = count == 2 && std::string(words[1]) == "--worker";  // by dotyk.ranks
     if (place.rank > 0 || spawned) {
+      std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of whoever writes it
       dotyk::multigrid::work_for_rank_0(spawned, {dotyk::elasticity::assemble_share, dotyk::elasticity::refinable_share, dotyk::script::visit});
       return 0;
     }

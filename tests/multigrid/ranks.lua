@@ -76,7 +76,7 @@ if not told("cube(4)"):find("libpetsc", 1, true) then
 
   -- Bodies that ranks refine: the numbers of one process, which has the whole meshes. Two bodies whose meshes do not match; triangles of order 2; a mesh that has
   -- coarser ones of its own; a support smaller than the coarse cells; two bodies that nothing joins, one of them of aggregates.
-  local refined <const> = [[
+  local refined = [[
     local function material(E) return dotyk.material{ E = E, nu = 0.3 } end
     local function say(s, c, body, part, ...)
       local numbers = { s.unknowns, s.rows, s.energy, s:contact(c).area, s:stress(body, ...).von_mises }
@@ -135,7 +135,44 @@ if not told("cube(4)"):find("libpetsc", 1, true) then
       scene:contact(on_two)
       say(dotyk.solver.multigrid{}:solve(scene), c, one, one:part"bottom", 1, 0.5, 0.75)
     end
-    blocks() plane() cube() clamped() apart() ]]
+    -- Contact alone holds the upper body, springs hold the lower one, whose stiffness jumps; forces per volume, one of them a function, in steps. Values inside, and
+    -- estimates, of each step.
+    local function loaded()
+      local upper = dotyk.body{ name = "upper", material = material(500), refine = 1, force = {0, 0, -20}, mesh = dotyk.mesh.box{ from = {0,0,0.5}, to = {1,1,1}, cells = {5, 5, 3}, element = "Q1" } }
+      local lower = dotyk.body{ name = "lower", material = dotyk.material{ E = function(x) return x < 0.5 and 1000 or 3000 end, nu = 0.3 }, refine = 1,
+                                force = function(x, y, z) return x * y, 2 * z, -10 - x * x end, mesh = dotyk.mesh.box{ from = {0,0,0}, to = {1,1,0.5}, cells = {6, 6, 4} } }
+      upper:part"left":slide()
+      upper:part"front":slide()
+      lower:part"bottom":spring{ x = 900, y = 700, z = 2000 }
+      lower:part"left":displace{ x = 0.002, case = "push" }
+      local scene = dotyk.scene{ lower, upper }
+      local c = scene:contact{ upper:part"bottom", lower:part"top", friction = dotyk.friction.coulomb(0.3) }
+      local s = dotyk.solver.multigrid{}:solve(scene, { steps = { { load = 0.5 }, { load = { push = 1 } } } })
+      for _, step in ipairs(s.steps) do
+        local relative, parts = step:error_estimate()
+        for _, name in ipairs{ "recovery", "bulk", "jump", "boundary", "contact_pressure" } do print(("|%.13g|"):format(parts[name])) end
+        print(("|%.13g %.13g|"):format(relative, step.energy))
+        say(step, c, lower, lower:part"bottom", 0.48, 0.51, 0.23)
+      end
+      -- How many cells all pieces have, and the least and the greatest values of each array.
+      local cells, least, greatest = 0, {}, {}
+      s:write(FILE .. ".pvtu")
+      for name in io.open(FILE .. ".pvtu"):read"a":gmatch 'Source="(.-)"' do
+        local piece = FILE:match"(.*/)" .. name
+        local text = io.open(piece, "rb"):read"a"
+        cells = cells + tonumber(text:match 'NumberOfCells="(%d+)')
+        for array, from, to in text:gmatch 'Name="([%a_]+)"[^>]-RangeMin="(%S+)%s*" +RangeMax="(%S+)%s*"' do
+          least[array], greatest[array] = math.min(least[array] or 1e300, tonumber(from)), math.max(greatest[array] or -1e300, tonumber(to))
+        end
+        os.remove(piece)
+      end
+      os.remove(FILE .. ".pvtu")
+      print(("|%d|"):format(cells))
+      for _, array in ipairs{ "displacement", "stress", "von_mises", "contact_pressure", "contact_status" } do
+        print(("|%.9g %.9g|"):format(least[array], greatest[array]))
+      end
+    end
+    blocks() plane() cube() clamped() apart() loaded() ]]
   local function numbers(text)
     local all <const> = {}
     for line in text:gmatch "|(.-)|" do
@@ -144,12 +181,14 @@ if not told("cube(4)"):find("libpetsc", 1, true) then
     end
     return all
   end
+  local file <const> = os.tmpname()
+  refined = ("local FILE = %q\n"):format(file) .. refined
   local alone <const> = numbers(told("dotyk.ranks(1)" .. refined))
-  check.that(#alone == 5, "five scenes on one rank")
+  check.that(#alone == 5 + 2 * 7 + 1 + 5, "five scenes on one rank, and one in two steps")
   for _, ranks in ipairs{ 2, 3, 5 } do
     local text <const> = told("dotyk.ranks(" .. ranks .. ")" .. refined)
     local several <const> = numbers(text)
-    check.that(#several == 5, text)
+    check.that(#several == #alone, text)
     for k, own in ipairs(alone) do
       local greatest = 0  -- of displacements and forces, whose components may vanish
       for i = 6, #own do greatest = math.max(greatest, math.abs(own[i])) end
@@ -169,14 +208,15 @@ if not told("cube(4)"):find("libpetsc", 1, true) then
     local function solved(...) return dotyk.solver.multigrid{}:solve(dotyk.scene{ ... }) end
     ]]
   local function refused(code, words) says(told(body .. code), words, 1) end
-  refused("body{ force = {0, 0, -1} }", "a force per volume needs them")
-  refused("body():part'left':spring{ x = 1 }", "needs them")
   refused("dotyk.solver.pdas{}:solve(dotyk.scene{ held() })", "dotyk.solver.multigrid{} works there")
   refused("dotyk.solver.multigrid{ levels = 'aggregates' }:solve(dotyk.scene{ held() })", "dotyk.solver.multigrid{} works there")
-  refused("solved(body())", "'b' is free to move")
+  refused("solved(body())", "'b' is not held")
+  refused("local b = body{ force = {0, 0, -1} } local s = dotyk.scene{ b } s:contact{ b:part'bottom', rigid = dotyk.rigid.plane{ point = {0,0,0}, normal = {0,0,1} } } dotyk.solver.multigrid{}:solve(s)",
+          "nothing notices 'b'")
   refused("solved(held(), held{ name = 'c', refine = 1 })", "on several ranks all bodies of a scene have the same")
-  refused("solved(held()):error_estimate()", "an error estimate needs them")
+  refused("solved(held()):distance(solved(held()))", "a distance of solutions needs them")
+  refused("solved(held()):write('/nowhere/a.pvtu')", "/nowhere")
   refused("solved(held()):render{ file = os.tmpname() .. '.png', cut = { point = {0.5, 0.5, 0.5}, normal = {0, 1, 0} } }", "a cut needs them")
-  refused("local b = held() solved(b):displacement(b, 0.5, 0.5, 0.5)", "lies in no cell at the boundary of 'b'")
+  refused("local b = held() solved(b):displacement(b, 0.5, 0.5, 1.5)", "lies outside 'b' at rest")
   says(told(body .. "local b = held() print(b, b.node_count, b.cell_count) print(dotyk.scene{ b }:plan()) print(dotyk.solve(dotyk.scene{ b }))"), "4913 nodes", 0)
 end

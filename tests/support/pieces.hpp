@@ -24,13 +24,10 @@ struct Assembled {
 };
 
 inline Assembled assembled(const Mesh& m, const CutBody& body, bool hold) {
-  Assembled a;
-  a.numbering = hold ? prescribe(m, body.held, body.value) : all_free(m);
+  const Numbering numbering = hold ? prescribe(m, body.held, body.value) : all_free(m);
   std::vector<double> force(m.coordinates.size(), 0);
   elasticity::add_body_force(m, body.load, force);
-  a.system = system_of(m, steel(m.dimension(), body.young), {}, force, a.numbering);
-  a.rigid = elasticity::rigid_modes(m, a.numbering, {});
-  return a;
+  return {system_of(m, steel(m.dimension(), body.young), {}, force, numbering), numbering, elasticity::rigid_modes(m, numbering, {})};
 }
 
 /// The cells of a piece with their nodes, in the order of the whole mesh; `node`: which those are.

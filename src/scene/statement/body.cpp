@@ -52,7 +52,7 @@ std::shared_ptr<Body> make_body(std::string name, std::shared_ptr<const mesh::Me
   body->name = std::move(name);
   body->mesh = std::move(mesh);
   body->material = std::move(material);
-  if (force) load_volume(*body, [&](const elasticity::CellPoint& p) { return force(p.x); });
+  if (force) load_volume(*body, force);
   return body;
 }
 

@@ -196,6 +196,7 @@ void displace(Part& part, const std::array<elasticity::ScalarField, 3>& componen
 
 /// Force per volume, of no case; a body takes one.
 void load_volume(Body& body, const elasticity::CellField& force);
+void load_volume(Body& body, const elasticity::VectorField& force);
 /// Force per length (2-D) or area (3-D).
 void load(Part& part, const elasticity::VectorField& traction, const std::string& load_case = {});
 /// Positive along the inward normal.

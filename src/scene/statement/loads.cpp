@@ -97,6 +97,10 @@ void load_volume(Body& body, const elasticity::CellField& force) {
   body.volume_load = std::move(load);
 }
 
+void load_volume(Body& body, const elasticity::VectorField& force) {
+  load_volume(body, [&](const elasticity::CellPoint& p) { return force(p.x); });
+}
+
 namespace {
 
 void add_volume_forces(const Body& body, std::vector<double>& nodal) {
