@@ -66,6 +66,10 @@ Rows by_number(const Buckets& means, const std::vector<int>& number) {
   return all;
 }
 
+/// Of a rank's nodes: those of a clump follow one another. New nodes between ranks go to the one and to the other by clumps, so that no rank gets more than others
+/// and borders stay short.
+constexpr int kClumps = 16;
+
 /// Flagged nodes in an order that depends on what they are the means of alone.
 std::vector<int> own_in_order(const Rows& means, const std::vector<char>& own) {
   std::vector<int> nodes;
@@ -94,7 +98,9 @@ std::vector<int> RefinedShare::refine(const Rows& asked) {
   const Rows means = by_number(cells_->refine(), number_);
   const std::vector<int>& first = first_.front();
   const int begin = first[ranks_.own()], end = first[ranks_.own() + 1];
-  const auto decides = [greatest = first_.size() % 2 == 0](std::span<const int> of_node) { return greatest ? of_node.back() : of_node.front(); };
+  const auto decides = [clump = std::max(1, first.back() / (kClumps * ranks_.count()))](std::span<const int> of_node) {
+    return of_node.front() / clump % 2 == 0 ? of_node.front() : of_node.back();
+  };
   const auto rank_of = [&](std::span<const int> of_node) { return static_cast<std::size_t>(std::ranges::upper_bound(first, decides(of_node)) - first.begin()) - 1; };
   std::vector<char> own(means.starts.size() - 1);
   for (std::size_t i = 0; i < own.size(); ++i) own[i] = decides(columns_of(means, i)) >= begin && decides(columns_of(means, i)) < end;

@@ -17,8 +17,8 @@ using PrescribedBits = std::unordered_map<int, int>;
 PrescribedBits prescribed_bits(const std::vector<int>& rows, int dimension);
 
 /// One rank's cells about its own nodes. Nodes of all ranks are numbered so that those of a rank follow one another. A node of a finer mesh is known by the nodes
-/// whose mean it is. It belongs to the rank of the one with the least number. Every second time it is the greatest number, so that no rank gets more than others. The
-/// rank that owns a node has all cells about it.
+/// whose mean it is. It belongs to the rank of the one with the least number or with the greatest, which the least number decides. The rank that owns a node has all
+/// cells about it.
 class RefinedShare {
  public:
   /// `dimension`: components of a node; `number`: of each node of the cells; `first`: of each rank its first node, and the number of all; `layers`: of cells about
