@@ -176,16 +176,21 @@ algebra::StoredMatrix assemble(const Mesh& mesh, const MaterialField& material, 
 algebra::Triplets spring_stiffness(const Mesh& mesh, const std::vector<FacetSpring>& springs, const Numbering& numbering) {
   algebra::Triplets entries;
   const int dim = mesh.dimension();
-  for (const FacetSpring& spring : springs)
+  for (const FacetSpring& spring : springs) {
+    double k[mesh::kMostFacetNodes][mesh::kMostFacetNodes][3] = {};
     for_each_facet_point(mesh, spring.facet, [&](const FacetPoint& p) {
       for (int a = 0; a < p.nodes; ++a)
         for (int b = 0; b <= a; ++b)
-          for (int i = 0; i < dim; ++i) {
-            const auto unknown = [&](int k) { return numbering.unknown[static_cast<std::size_t>(mesh.facet_node(spring.facet, k)) * dim + i]; };
-            const int row = std::max(unknown(a), unknown(b)), column = std::min(unknown(a), unknown(b));
-            if (column >= 0) entries.emplace_back(row, column, spring.stiffness[p.index][i] * p.shape[a] * p.shape[b] * p.measure);
-          }
+          for (int i = 0; i < dim; ++i) k[a][b][i] += spring.stiffness[p.index][i] * p.shape[a] * p.shape[b] * p.measure;
     });
+    for (int a = 0; a < mesh.topology().nodes_per_facet; ++a)
+      for (int b = 0; b <= a; ++b)
+        for (int i = 0; i < dim; ++i) {
+          const auto unknown = [&](int node) { return numbering.unknown[static_cast<std::size_t>(mesh.facet_node(spring.facet, node)) * dim + i]; };
+          const int row = std::max(unknown(a), unknown(b)), column = std::min(unknown(a), unknown(b));
+          if (column >= 0 && k[a][b][i] != 0) entries.emplace_back(row, column, k[a][b][i]);
+        }
+  }
   return entries;
 }
 

@@ -56,8 +56,8 @@ struct Load {
 /// Bytes of a lower triangle on all components, with as many couplings as a grid of these cells has.
 double matrix_bytes(const mesh::Mesh& mesh);
 
-/// Assembles K, a body's stiffness ∫ ε(v):c:ε(u) with springs: the lower triangle, unknowns × unknowns. The pattern is made once from the mesh; entries are
-/// added in place (no triplets).
+/// Assembles K, a body's stiffness ∫ ε(v):c:ε(u) with springs: the lower triangle, unknowns × unknowns. The pattern is made once from the mesh; entries of cells
+/// are added in place (no triplets).
 algebra::StoredMatrix assemble(const mesh::Mesh& mesh, const MaterialField& material, const std::vector<FacetSpring>& springs, const Numbering& numbering);
 
 /// What springs add to K: entries of the lower triangle, some places several times.

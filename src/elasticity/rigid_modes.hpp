@@ -62,7 +62,7 @@ RigidModes rigid_modes(const mesh::Mesh& mesh, const Numbering& numbering, const
 struct Resultants {
   algebra::Vector e, gross;
 };
-/// Of the load that a force gives on the mesh refined `times` times, which is made a few cells at a time.
+/// Of the load that a force gives on the mesh refined `times` times, which is made a few cells at a time, where rules of quadrature tell it from the mesh as it is.
 Resultants resultants(const mesh::Mesh& mesh, int times, const LinearForce& force, const RigidModes& modes);
 
 /// All rigid motions, 3 or 6, on the unknowns, whatever holds the body. `unknown` as in Numbering, which has so many of them.

@@ -62,8 +62,9 @@ std::unique_ptr<Slice> receive_slice(const Ranks& ranks, const ShareMakers& make
   ranks.receive(0, own.slot), ranks.receive(0, own.idle);
   Lists lists = receive_lists(ranks, 0);
   AllOwnFunctions functions = receive_own_functions(ranks, 0);
+  const Entries added = receive_entries(ranks);
   HalfRows rows = assembled(makers, std::move(lists), own);
-  receive_added(ranks, rows);
+  add(rows, added);
   return told_slice(ranks, std::move(rows), own.idle, std::move(functions));
 }
 

@@ -1,7 +1,6 @@
 // Vectors in parts with the ranks, as rank 0 has them.
 #pragma once
 
-#include <map>
 #include <memory>
 #include <vector>
 
@@ -50,7 +49,7 @@ class RankVectors final : public algebra::Vectors {
 /// What ranks other than 0 have, and what they do for these tasks.
 algebra::VectorParts receive_vectors(const Ranks& ranks);
 void run_order(const Ranks& ranks, algebra::VectorParts& vectors);
-void visit_for_rank_0(const Ranks& ranks, const ShareMakers& makers, std::map<int, algebra::VectorParts>& vectors);
+void visit_for_rank_0(const Ranks& ranks, const ShareMakers& makers, algebra::VectorParts& vectors);
 void exchange_numbers(const Ranks& ranks, Task task, algebra::VectorParts& vectors);
 
 }  // namespace dotyk::multigrid

@@ -94,23 +94,24 @@ Rows means_by_number(const algebra::CoarseFunctions& functions, const std::vecto
 
 /// What a rank needs for a visit, beside its cells.
 struct VisitOrder {
-  int times = 0, dimension = 0, vectors = 0, u = 0, what = 0;
+  int times = 0, dimension = 0, u = 0, what = 0;
   std::vector<int> rows = {};       ///< of prescribed components that are not 0
   std::vector<double> values = {};  ///< of these
+  std::vector<int> nodes = {};      ///< numbers
   Lists said = {};
 };
 
 void send(const Ranks& ranks, int to, const VisitOrder& order) {
-  ranks.send(to, std::vector<int>{order.times, order.dimension, order.vectors, order.u, order.what});
-  ranks.send(to, order.rows), ranks.send(to, order.values);
+  ranks.send(to, std::vector<int>{order.times, order.dimension, order.u, order.what});
+  ranks.send(to, order.rows), ranks.send(to, order.values), ranks.send(to, order.nodes);
   send(ranks, to, order.said);
 }
 
 VisitOrder receive_order(const Ranks& ranks) {
   std::vector<int> numbers;
   ranks.receive(0, numbers);
-  VisitOrder order{numbers[0], numbers[1], numbers[2], numbers[3], numbers[4]};
-  ranks.receive(0, order.rows), ranks.receive(0, order.values);
+  VisitOrder order{numbers[0], numbers[1], numbers[2], numbers[3]};
+  ranks.receive(0, order.rows), ranks.receive(0, order.values), ranks.receive(0, order.nodes);
   order.said = receive_lists(ranks, 0);
   return order;
 }
@@ -124,7 +125,7 @@ Lists visit_own(const Ranks& ranks, Given given, const VisitOrder& order, const 
   for (std::size_t k = 0; k < u.size() && !prescribed.empty(); ++k)
     if (const auto at = prescribed.find(share.number()[k / order.dimension] * order.dimension + static_cast<int>(k) % order.dimension); at != prescribed.end()) u[k] = at->second;
   const std::vector<int>& first = share.first().front();
-  return makers.visit(static_cast<VisitFor>(order.what), {share.cells(), share.number(), first[ranks.own()], first[ranks.own() + 1], u, ranks.own()}, order.said);
+  return makers.visit(static_cast<VisitFor>(order.what), {share.cells(), share.number(), first[ranks.own()], first[ranks.own() + 1], u, order.nodes, ranks.own()}, order.said);
 }
 
 }  // namespace
@@ -146,8 +147,9 @@ std::unique_ptr<Slice> receive_refined_slice(const Ranks& ranks, const ShareMake
   std::vector<std::vector<int>> prescribed(static_cast<std::size_t>(times) + 1);
   for (auto& rows : prescribed) ranks.receive(0, rows);
   const AllOwnFunctions others = receive_own_functions(ranks, 0);
+  const Entries added = receive_entries(ranks);
   RefinedRows own = refined_rows(ranks, share, prescribed, others, dimension, loaded);
-  receive_added(ranks, own.rows);
+  add(own.rows, added);
   return told_slice(ranks, std::move(own.rows), own.idle, std::move(own.functions), std::move(own.load));
 }
 
@@ -187,10 +189,9 @@ std::vector<Lists> RankVectors::visit(const Visit& visit) {
   const std::lock_guard lock(only_one());
   const Ranks& ranks = workers_.ranks();
   const int d = refinement->dimension;
-  VisitOrder order{refinement->times, d, number(), visit.u.number(), static_cast<int>(visit.what), {}, visit.values, visit.said};
+  VisitOrder order{refinement->times, d, visit.u.number(), static_cast<int>(visit.what), {}, visit.values, {}, visit.said};
   for (const int component : visit.components) order.rows.push_back(refinement->node[component / d] * d + component % d);
-  if (!order.said.whole.empty())
-    for (int& node : order.said.whole.back()) node = refinement->node[node];
+  for (const int node : visit.nodes) order.nodes.push_back(refinement->node[node]);
   return ranks.together([&] {
     workers_.tell(Task::visit);
     Given own = share_cells(ranks, *refinement, visit.share, [&](int r) { send(ranks, r, order); });
@@ -200,10 +201,10 @@ std::vector<Lists> RankVectors::visit(const Visit& visit) {
   });
 }
 
-void visit_for_rank_0(const Ranks& ranks, const ShareMakers& makers, std::map<int, algebra::VectorParts>& vectors) {
+void visit_for_rank_0(const Ranks& ranks, const ShareMakers& makers, algebra::VectorParts& vectors) {
   const VisitOrder order = receive_order(ranks);
   Given given = receive_given(ranks);
-  send(ranks, 0, visit_own(ranks, std::move(given), order, makers, vectors.at(order.vectors)[order.u]));
+  send(ranks, 0, visit_own(ranks, std::move(given), order, makers, vectors[order.u]));
 }
 
 }  // namespace dotyk::multigrid

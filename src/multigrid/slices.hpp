@@ -19,6 +19,7 @@ struct VisitedCells {
   const std::vector<int>& number;  ///< of each node, among those of all processes
   int first, end;                  ///< own nodes have these numbers
   const std::vector<double>& u;    ///< node × dimension, prescribed components too
+  const std::vector<int>& told;    ///< numbers of nodes that rank 0 names
   int rank;
 };
 /// What they are visited for: see script/visits.hpp.
@@ -69,7 +70,8 @@ struct Visit {
   std::vector<int> components;  ///< prescribed ones, node × dimension of all bodies as they are here
   std::vector<double> values;   ///< of these
   VisitFor what;
-  Lists said;  ///< what all ranks are told; the last of the whole lists are nodes as they are here, which the ranks learn by their numbers
+  Lists said;              ///< what all ranks are told
+  std::vector<int> nodes;  ///< as they are here, of all bodies; the ranks are told their numbers
 };
 
 /// Several ranks share the work where each has enough to do. One process saves memory where there are many unknowns: solvers take the matrix of the slices on

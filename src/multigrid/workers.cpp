@@ -200,7 +200,7 @@ void work(bool spawned, const ShareMakers& makers) {
         case Task::drop: cycles.erase(number); break;
         case Task::slice: slices[number] = receive_slice(world(), makers); break;
         case Task::refined_slice: slices[number] = receive_refined_slice(world(), makers); break;
-        case Task::visit: visit_for_rank_0(world(), makers, vectors); break;
+        case Task::visit: visit_for_rank_0(world(), makers, vectors.at(number)); break;
         case Task::multiply: multiply(*slices.at(number), vectors); break;
         case Task::some: tell_some(world(), *slices.at(number)); break;
         case Task::drop_slice: slices.erase(number); break;

@@ -7,9 +7,11 @@
 #include <stdexcept>
 
 #include "algebra/congruent.hpp"
+#include "algebra/dense/decompositions.hpp"
 
 namespace dotyk::problem {
 
+using algebra::DenseMatrix;
 using algebra::SparseMatrix;
 using algebra::SparseRows;
 using algebra::Vector;
@@ -20,6 +22,14 @@ struct CoarserBlock {
   Block block;
   algebra::CoarseFunctions functions;  ///< the unknowns of the finer block by this one's
 };
+
+/// Motions that are known at some unknowns, and 0 at others, at all of them: as combinations of all rigid motions.
+DenseMatrix completed(const DenseMatrix& known, const DenseMatrix& rigid) {
+  std::vector<int> rows;
+  for (int i = 0; i < known.rows(); ++i)
+    if (!known.row(i).isZero(0)) rows.push_back(i);
+  return rigid * algebra::least_squares(DenseMatrix(rigid(rows, Eigen::all)), DenseMatrix(known(rows, Eigen::all)));
+}
 
 /// The block without its K. `all`: the functions of all coarser meshes.
 CoarserBlock coarser(const Block& fine, std::vector<algebra::CoarseFunctions> all) {
@@ -45,13 +55,15 @@ CoarserBlock coarser(const Block& fine, std::vector<algebra::CoarseFunctions> al
   block.coarse = {std::move(nodes), functions.dimension, [all = std::move(all)](int most) { return std::vector(all.begin(), all.begin() + most); }};
   if (!fine.coarse.rigid) return out;
   block.coarse.rigid = [rigid = fine.coarse.rigid](int levels) { return rigid(levels + 1); };
-  if (block.hidden == 0) block.rigid = [rigid = fine.coarse.rigid, functions] {
-      const algebra::DenseMatrix all = rigid(1);  // empty columns of the functions among its rows
-      algebra::DenseMatrix motions(functions.columns, all.cols());
-      for (std::size_t k = 0; k < functions.column.size(); ++k)
-        if (functions.column[k] >= 0) motions.row(functions.column[k]) = all.row(static_cast<Eigen::Index>(k));
-      return motions;
-    };
+  if (block.hidden > 0) return out;
+  block.rigid = [rigid = fine.coarse.rigid, functions] {
+    const DenseMatrix all = rigid(1);  // empty columns of the functions among its rows
+    DenseMatrix motions(functions.columns, all.cols());
+    for (std::size_t k = 0; k < functions.column.size(); ++k)
+      if (functions.column[k] >= 0) motions.row(functions.column[k]) = all.row(static_cast<Eigen::Index>(k));
+    return motions;
+  };
+  if (fine.kernel.cols() > 0) block.kernel = completed(block.kernel, block.rigid());
   return out;
 }
 
@@ -86,14 +98,6 @@ std::vector<std::vector<int>> kinds(const Problem& problem) {
   return all;
 }
 
-/// Where nothing is hidden, the load that the slices have becomes the blocks'.
-void take_load_of_slices(Problem& problem) {
-  if (problem.sliced_load == 0 || problem.hides()) return;
-  const Vector all = whole_load(problem).get();
-  for (Block& block : problem.blocks) block.f = all.segment(block.first, block.size());
-  problem.sliced_load = 0;
-}
-
 /// The part of each block.
 void take_stiffness(Problem& problem, algebra::SymmetricMatrix all) {
   if (const auto slices = all.shared_slices()) return take_slices(problem, slices);
@@ -102,6 +106,13 @@ void take_stiffness(Problem& problem, algebra::SymmetricMatrix all) {
 }
 
 }  // namespace
+
+void take_load_of_slices(Problem& problem) {
+  if (problem.sliced_load == 0 || problem.hides()) return;
+  const Vector all = whole_load(problem).get();
+  for (Block& block : problem.blocks) block.f = all.segment(block.first, block.size());
+  problem.sliced_load = 0;
+}
 
 int coarser_meshes(const Problem& problem) {
   constexpr double kWorth = 0.7;  // displacements of a mesh, of those of the finer one: bodies without coarser meshes keep theirs

@@ -7,6 +7,9 @@
 
 namespace dotyk::problem {
 
+/// Where nothing is hidden, the load that the slices have becomes the blocks': methods then need to know of no other.
+void take_load_of_slices(Problem& problem);
+
 /// How many are worth a level: the greatest number that a body has, without the last ones on which all bodies together have hardly fewer displacements. 0
 /// where a body cannot tell functions of coarser meshes.
 int coarser_meshes(const Problem& problem);

@@ -153,7 +153,7 @@ std::vector<Sizes> sizes(const Problem& problem, const State& state, const Force
     part.greatest_load = std::max(part.greatest_load, block.f.lpNorm<Eigen::Infinity>());
   });
   if (problem.sliced_load != 0) {  // all blocks are one part
-    const algebra::Field whole = whole_load(problem, all.u->where());
+    const algebra::Field whole = all.load ? *all.load : whole_load(problem, all.u->where());
     result[0].load = of.norm(whole)[0], result[0].greatest_load = whole.greatest();
   }
   // Where half of the digits of K|u| are below this part of the forces of contact they need not be known.

@@ -134,6 +134,7 @@ void require_moderate(const Problem& problem, double most_force) {
     grow(stiffness, block.K.greatest_on_diagonal());
     for (const double f : block.f) grow(force, f);
   }
+  if (problem.sliced_load != 0) grow(force, whole_load(problem).greatest());
   for (const double c : problem.c)
     if (!std::isinf(c)) grow(gap, c);
   require_within(stiffness, kMostStiffness, "stiffnesses");

@@ -84,7 +84,8 @@ struct Problem {
   std::vector<double> measure;
   /// Where a row is, for messages: "node 12 of 'block' at (0.5, 0)". May be empty.
   std::function<std::string(int)> row_name;
-  double sliced_load = 0;  ///< loads are the blocks' f and so many times the load that the slices of K have: see SlicedMatrix::add_load()
+  /// The load is f of the blocks, and so many times the load that was assembled with the slices of K: see SlicedMatrix::add_load(). Not 0 only where unknowns are hidden.
+  double sliced_load = 0;
 
   int unknowns() const { return blocks.empty() ? 0 : blocks.back().first + blocks.back().size(); }
   int all_unknowns() const;  ///< hidden ones among them
@@ -104,7 +105,7 @@ struct Problem {
   algebra::Vector row_compliance() const;
   /// B's columns of one block, in the block's own numbering.
   algebra::SparseRows rows_of(const Block& block) const;
-  algebra::Vector load() const;            ///< f of all blocks
+  algebra::Vector load() const;            ///< f of all blocks, without what the slices have: see whole_load()
   bool loaded() const;                     ///< is one of its numbers not 0? Without a load nothing but rounding gives forces a scale
   /// The unknowns of B's entries, ascending, and B with these columns alone.
   struct NearRows {

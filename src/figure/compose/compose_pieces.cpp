@@ -28,14 +28,14 @@ std::string piece_name(const std::string& list, int rank) {
   return (place.parent_path() / text(place.stem().string(), "_", rank, ".vtu")).string();
 }
 
-// What rank 0 says: the name of the list, those of the bodies, then the nodes of contacts; their pressures, gaps and statuses.
+// What rank 0 says: the name of the list, those of the bodies; pressures, gaps and statuses at the nodes of contacts, where there are contacts.
 enum Whole { kFile, kFirstName };
 
 /// The arrays of the contacts at the nodes of a piece, from those at some nodes.
-void add_contacts(const std::vector<int>& number, const Lists& said, GridFile& file) {
-  if (said.whole.back().empty()) return;
+void add_contacts(const std::vector<int>& number, const std::vector<int>& nodes, const Lists& said, GridFile& file) {
+  if (said.real.empty()) return;
   std::unordered_map<int, std::size_t> place;
-  for (std::size_t k = 0; k < said.whole.back().size(); ++k) place.emplace(said.whole.back()[k], k);
+  for (std::size_t k = 0; k < nodes.size(); ++k) place.emplace(nodes[k], k);
   std::vector<GridArray> arrays = contact_arrays(number.size());
   for (std::size_t n = 0; n < number.size(); ++n)
     if (const auto at = place.find(number[n]); at != place.end())
@@ -48,12 +48,9 @@ GridFile piece(const multigrid::VisitedCells& at, const Lists& said) {
   GridFile file{piece_name(text_of(said.whole[kFile]), at.rank), {}, {}, {}};
   NodeArrays arrays;
   std::vector<int> number;  // of the piece's nodes, among those of all ranks
-  std::size_t first = 0;
-  for (std::size_t name = kFirstName; name + 1 < said.whole.size(); ++name) file.bodies.push_back({text_of(said.whole[name]), CellShape::triangle, {}, 1});
-  for (const elasticity::ShareCells& cells : static_cast<const elasticity::RefinableShare&>(at.cells).bodies()) {
+  for (std::size_t name = kFirstName; name < said.whole.size(); ++name) file.bodies.push_back({text_of(said.whole[name]), CellShape::triangle, {}, 1});
+  scene::each_body(at, [&](const elasticity::ShareCells& cells, const std::vector<double>& u, std::size_t first) {
     const mesh::Mesh& mesh = cells.mesh;
-    const auto size = static_cast<std::ptrdiff_t>(mesh.coordinates.size()), begin = static_cast<std::ptrdiff_t>(first) * mesh.dimension();
-    const std::vector<double> u(at.u.begin() + begin, at.u.begin() + begin + size);
     const std::vector<elasticity::Stress> stress = elasticity::nodal_stress(mesh, cells.material, u);
     GridBody& body = file.bodies[static_cast<std::size_t>(cells.body)];
     body.shape = cell_shape(mesh), body.order = mesh.topology().order;
@@ -69,10 +66,9 @@ GridFile piece(const multigrid::VisitedCells& at, const Lists& said) {
         }
         body.cells.push_back(place[node]);
       }
-    first += static_cast<std::size_t>(mesh.node_count());
-  }
+  });
   file.arrays = std::move(arrays).all();
-  add_contacts(number, said, file);
+  add_contacts(number, at.told, said, file);
   return file;
 }
 
@@ -97,19 +93,18 @@ void write_pieces(const scene::Solution& solution, const std::string& file) {
   for (const auto& body : solution.scene().bodies) said.whole.push_back(letters(body->name));
   std::vector<int> nodes;
   const std::vector<GridArray> contacts = contact_arrays(solution);
+  said.real.resize(contacts.size());
   for (std::size_t n = 0; !contacts.empty() && n < contacts[0].values.size(); ++n) {
     if (std::isnan(contacts[1].values[n])) continue;
     nodes.push_back(static_cast<int>(n));
-    said.real.resize(contacts.size());
     for (std::size_t a = 0; a < contacts.size(); ++a) said.real[a].push_back(contacts[a].values[n]);
   }
   GridFile list{file, {}, {}, NodeArrays().all()};
   for (const GridArray& array : contacts) list.arrays.push_back({array.name, array.components, {}});
-  said.whole.push_back(std::move(nodes));
   check(list);
   std::filesystem::remove(place_to_write(file));
   const auto told = scene::visit_refined(solution.model(), solution.result().state.u, multigrid::VisitFor::write,
-                                         [](multigrid::VisitFor, const multigrid::VisitedCells& at, const Lists& said) { return write_cells(at, said); }, std::move(said));
+                                         [](multigrid::VisitFor, const multigrid::VisitedCells& at, const Lists& said) { return write_cells(at, said); }, std::move(said), std::move(nodes));
   for (std::size_t r = 0; r < told.size(); ++r) {
     if (!told[r].whole[0].empty()) throw InputError(text("rank ", r, ": ", text_of(told[r].whole[0])));
     if (told[r].whole[1][0]) list.written.push_back(std::filesystem::path(piece_name(file, static_cast<int>(r))).filename().string());

@@ -32,10 +32,10 @@ Entries entries_of(int rank, const algebra::Triplets& added, const Numbering& nu
 
 void send(const Ranks& ranks, int to, const Entries& entries) { ranks.send(to, entries.rows), ranks.send(to, entries.columns), ranks.send(to, entries.values); }
 
-void receive_added(const Ranks& ranks, HalfRows& rows) {
+Entries receive_entries(const Ranks& ranks) {
   Entries entries;
   ranks.receive(0, entries.rows), ranks.receive(0, entries.columns), ranks.receive(0, entries.values);
-  add(rows, entries);
+  return entries;
 }
 
 std::unique_ptr<Slice> told_slice(const Ranks& ranks, HalfRows rows, const std::vector<int>& idle, AllOwnFunctions functions, OwnLoad load) {

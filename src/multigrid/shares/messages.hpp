@@ -16,8 +16,7 @@ Lists receive_lists(const Ranks& ranks, int from);
 /// Of entries of the lower triangle, by unknowns, those that a rank stores: it has the row or the column.
 Entries entries_of(int rank, const algebra::Triplets& added, const Numbering& numbering);
 void send(const Ranks& ranks, int to, const Entries& entries);
-/// Adds what rank 0 has sent.
-void receive_added(const Ranks& ranks, HalfRows& rows);
+Entries receive_entries(const Ranks& ranks);  ///< from rank 0
 
 /// The slice of a rank other than 0, which learns its diagonal.
 std::unique_ptr<Slice> told_slice(const Ranks& ranks, HalfRows rows, const std::vector<int>& idle, AllOwnFunctions functions, OwnLoad load = nullptr);

@@ -13,6 +13,7 @@
 #include "elasticity/rigid_modes.hpp"
 #include "elasticity/weak_motions.hpp"
 #include "multigrid/slices.hpp"
+#include "problem/coarser.hpp"
 #include "problem/contradiction.hpp"
 #include "scene/model/row_builder.hpp"
 #include "scene/model/slices.hpp"
@@ -120,11 +121,12 @@ void set_load(const Body& body, const Numbering& numbering, problem::Block& bloc
   for (std::size_t k = 0; k < given.size(); ++k) block.offset -= numbering.value(k) * given[k];
 }
 
-/// How many times the load that the slices have: all loads per volume have one factor.
-double factor_of_sliced_load(const Model& model) {
+/// Sets how many times the load that the slices have counts: all loads per volume have one factor.
+void take_sliced_load(Model& model) {
+  model.problem.sliced_load = 0;
   for (const Body& body : model.bodies)
-    if (body.unrefined && body.volume_load) return body.volume_load->factor;
-  return 0;
+    if (body.unrefined && body.volume_load) model.problem.sliced_load = body.volume_load->factor;
+  problem::take_load_of_slices(model.problem);
 }
 
 algebra::StoredMatrix assemble(const Body& body, const Numbering& numbering) {
@@ -278,7 +280,7 @@ Model build(const Scene& scene, problem::Clock& clock, Monitor& monitor, const L
     model.nearly_free.push_back(nearly_free(body, model.numbering[b], block, model.softest));
     monitor.check();
   }
-  model.problem.sliced_load = factor_of_sliced_load(model);
+  take_sliced_load(model);
   require_moderate(model.problem, decomposition.has_value());
   if (decomposition) cut(*decomposition, model, monitor);
   clock.assembly += watch.seconds();
@@ -293,7 +295,7 @@ void reload(const Scene& scene, const std::vector<Body>& bodies, const Loading& 
     model.numbering[b] = number(model.bodies[b]);
     set_load(model.bodies[b], model.numbering[b], model.problem.blocks[b]);
   }
-  model.problem.sliced_load = factor_of_sliced_load(model);
+  take_sliced_load(model);
   set_rows(scene, loading, model);
   require_moderate(model.problem, model.decomposition.has_value());
   load_subdomains(model);

@@ -4,7 +4,6 @@
 #include <array>
 
 #include "elasticity/interpolation.hpp"
-#include "elasticity/share.hpp"
 #include "mesh/box_tree.hpp"
 #include "scene/model/slices.hpp"
 
@@ -29,17 +28,6 @@ std::vector<Point> mean_forces(const elasticity::ShareCells& cells, double facto
     return f;
   }, nodal);
   return mean;
-}
-
-/// Calls visit(cells, u, its first node) for each body of a rank's share.
-template <class Visit>
-void each_body(const multigrid::VisitedCells& at, const Visit& visit) {
-  std::size_t first = 0;
-  for (const elasticity::ShareCells& cells : static_cast<const elasticity::RefinableShare&>(at.cells).bodies()) {
-    const auto begin = at.u.begin() + static_cast<std::ptrdiff_t>(first) * cells.mesh.dimension();
-    visit(cells, std::vector<double>(begin, begin + std::ssize(cells.mesh.coordinates)), first);
-    first += static_cast<std::size_t>(cells.mesh.node_count());
-  }
 }
 
 }  // namespace
@@ -101,7 +89,7 @@ Lists values_at_point(const multigrid::VisitedCells& at, const Lists& said) {
 std::optional<InnerValues> inner_values(const Solution& solution, int body, const Point& x) {
   const auto told = visit_refined(solution.model(), solution.result().state.u, multigrid::VisitFor::point,
                                   [](multigrid::VisitFor, const multigrid::VisitedCells& at, const Lists& said) { return values_at_point(at, said); },
-                                  {{{body}, {}}, {{x[0], x[1], x[2]}}});
+                                  {{{body}}, {{x[0], x[1], x[2]}}});
   for (const Lists& of_rank : told) {
     const std::vector<double>& numbers = of_rank.real[0];
     if (numbers.empty()) continue;

@@ -13,7 +13,7 @@ struct InnerEstimate {
   elasticity::ErrorParts parts;  ///< recovery, bulk and jump of all cells
   std::vector<double> solution;  ///< ∫ σ_h:c⁻¹:σ_h, by body
 };
-/// Of all ranks. Throws as visit_refined().
+/// Of all ranks. Throws as visit_refined(). Where Hooke's tensor jumps, a region whose cells hang together only far from a rank's own ones counts as two there.
 InnerEstimate inner_estimate(const Solution& solution);
 
 struct InnerValues {

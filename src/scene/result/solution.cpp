@@ -95,7 +95,7 @@ Solution::Solution(std::shared_ptr<const Scene> scene, Model model, const proble
     settle(*scene_, model_, problem, state_before(past_, result_.state.u), result_);
   result_.clock.motions += watch.lap();
   residual_ = solver::judge(problem, result_, model_.softest);
-  if (with_stiffness) rounding_of_forces_ = problem::rounding_of_forces(problem, result_.state);
+  if (with_stiffness) rounding_of_forces_ = problem::rounding_of_forces(problem, result_.state), scales_ = problem::scales(problem, result_.state);
   take_state(problem);
   for (const std::string& body : describe_nearly_free(*scene_, model_)) result_.reason += "; " + body;
   result_.clock.recover += watch.lap();
@@ -183,6 +183,11 @@ elasticity::Stress Solution::stress(int body, const Point& x) const {
 const Vector& Solution::rounding_of_forces() const {
   if (!rounding_of_forces_) rounding_of_forces_ = problem::rounding_of_forces(model_.problem, result_.state);
   return *rounding_of_forces_;
+}
+
+const std::vector<problem::Scales>& Solution::scales() const {
+  if (!scales_) scales_ = problem::scales(model_.problem, result_.state);
+  return *scales_;
 }
 
 bool Solution::active(int row) const {

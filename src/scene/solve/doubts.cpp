@@ -72,7 +72,7 @@ void see_rounding(const Solution& solution, std::size_t index, std::vector<std::
   double greatest = 0, uncertain = 0;
   std::size_t worst = 0;
   bool bears = false;
-  const std::vector<problem::Scales> scales = problem::scales(solution.model().problem, solution.result().state);
+  const std::vector<problem::Scales>& scales = solution.scales();
   for (std::size_t i = 0; i < contact.rows.size(); ++i) {
     const int row = solution.model().contact_row[index][i];
     if (row < 0) continue;
@@ -122,7 +122,7 @@ std::vector<Acting> may_depend(const Solution& solution) {
       for (const auto& node : nodes(*contact, row)) ++count[node];
   const problem::Problem& problem = solution.model().problem;
   const algebra::Vector x = problem::jumps(problem, solution.result().state.u);
-  const std::vector<problem::Scales> scales = problem::scales(problem, solution.result().state);
+  const std::vector<problem::Scales>& scales = solution.scales();
   // A point of friction without slip may bear less, though it bears all that it can.
   const auto rests = [&](int r) { return std::abs(x[r]) <= 1e-8 * scales[static_cast<std::size_t>(r)].length; };
   std::vector<Acting> acting;

@@ -97,7 +97,7 @@ void come_to_rest(SetIteration& it) {
   const Noise before = it.noise(it.lambda, it.x);
   if (it.lambda.size() == 0) return;
   if (!problem.loaded() && (it.lambda.cwiseAbs() - before.force).maxCoeff() <= 0) {  // there is no scale to rest by
-    if ((problem.c + before.gap).minCoeff() >= 0) it.lambda.setZero(), it.x = -problem.c, it.settled = Vector::Zero(problem.unknowns());
+    if ((problem.c + before.gap).minCoeff() >= 0) it.lambda.setZero(), it.x = -problem.c, it.settled = problem.hides() ? problem::Displacement(algebra::Field(problem::vectors(problem))) : Vector::Zero(problem.unknowns());
     return;
   }
   Linearisation rest = it.l;

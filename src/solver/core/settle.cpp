@@ -36,7 +36,7 @@ Vector nearest_amounts(const problem::FreeMotions& free, const Eigen::MatrixXd& 
   return found.status == program::Status::solved ? found.x : Vector::Zero(k);
 }
 
-/// The motions, how far they go, and of all states that differ by them the one nearest to `before`.
+/// The motions, how far they go, and of all states that differ by them the one nearest to `before`; where unknowns are hidden the state stays as it is.
 void take_nearest(const problem::Problem& problem, const problem::FreeMotions& free, const problem::Displacement& before, Result& result) {
   const int count = free.count;
   Eigen::MatrixXd D = problem::displacement(problem, free.motions);
@@ -44,11 +44,14 @@ void take_nearest(const problem::Problem& problem, const problem::FreeMotions& f
     const auto unnoticed = algebra::orthonormal(problem::displacement(problem, free.unnoticed));
     for (int k = 0; k < count; ++k) D.col(k) = problem::least(unnoticed, D.col(k));
   }
-  const bool at_rest = before.size() == 0 || before.here().isZero(0);
-  Vector& u = result.state.u.change();
-  const Vector wanted = at_rest ? Vector(-u) : Vector(before.here() - u);
-  const Vector amounts = nearest_amounts(free, D.transpose() * D, D.transpose() * wanted);
-  u += D * amounts;
+  const bool hides = problem.hides(), at_rest = before.size() == 0 || before.here().isZero(0);
+  Vector amounts = Vector::Zero(count);
+  if (!hides) {
+    Vector& u = result.state.u.change();
+    const Vector wanted = at_rest ? Vector(-u) : Vector(before.here() - u);
+    amounts = nearest_amounts(free, D.transpose() * D, D.transpose() * wanted);
+    u += D * amounts;
+  }
   int widest = 0;
   problem::Interval range{0, 0};  // of the motion that may go furthest, as a displacement
   for (int k = 0; k < count; ++k) {
@@ -56,12 +59,12 @@ void take_nearest(const problem::Problem& problem, const problem::FreeMotions& f
     const problem::Interval own = free.range(k, amounts);
     if ((own.high - own.low) * size > range.high - range.low) widest = k, range = {own.low * size, own.high * size};
   }
-  if (range.high - range.low <= 1e-9 * u.lpNorm<Eigen::Infinity>()) return;  // they have nowhere to go
+  if (range.high - range.low <= 1e-9 * result.state.u.here().lpNorm<Eigen::Infinity>()) return;  // they have nowhere to go
   const std::string which = describe(problem::body_motions(problem), Vector(free.motions.col(widest)));
   result.reason += text(stress(problem), ", displacement up to ", count == 1 ? which : text(count, " motions, one of them ", which),
                         ", by displacements from ", end(range.low), " to ", end(range.high),
                         " at the most: the contacts that hold leave ", count == 1 ? "it" : "them", " free until the next node closes or sticks, so that the mesh decides how "
-                        "far; this is the ", at_rest ? "least" : "nearest to the step before");
+                        "far; this is ", hides ? "one of them" : at_rest ? "the least" : "the nearest to the step before");
 }
 
 }  // namespace

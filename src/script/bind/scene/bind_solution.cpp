@@ -210,12 +210,12 @@ void bind_solution(Library& library) {
       .field("ordering", "elimination order used", [](const Solution& s) { return s.result().ordering; })
       .field("factor_bytes", "size of the sparse factors", [](const Solution& s) { return s.result().factor_bytes; }, "bytes");
   type.method({.name = "solution:displacement",
-               .help = "Components of the displacement at a point of a body at rest.",
+               .help = "Components of the displacement at a point of a body at rest. Inside a body with refine on several ranks they refine their cells once more for each such point.",
                .example = "local ux, uy = s:displacement(block, 0, 0.5)",
                .arguments = point_keys("the point at rest"),
                .run = solution_displacement})
       .method({.name = "solution:stress",
-               .help = "Recovered stress at a point of a body at rest: xx yy xy zz (yz xz), von_mises, principal.",
+               .help = "Recovered stress at a point of a body at rest: xx yy xy zz (yz xz), von_mises, principal. Inside a body with refine on several ranks as costly as solution:displacement.",
                .example = "print(s:stress(block, 0, 0.5).von_mises)",
                .arguments = point_keys("the point at rest"),
                .run = stress})
@@ -252,7 +252,7 @@ void bind_solution(Library& library) {
                        "absolute²: recovery (stress against recovered stress), bulk (equilibrium of the recovered stress inside cells), "
                        "jump (of its tractions where the material jumps), boundary (against loads and free boundaries), "
                        "contact_pressure and friction (against the contact's pressure and shear; friction also slip against its law), "
-                       "complementarity (pressure where the gap opens), laws (elastic ones act at nodes, not between them); and cells[i], the estimate of each cell of the i-th body.",
+                       "complementarity (pressure where the gap opens), laws (elastic ones act at nodes, not between them); and cells[i], the estimate of each cell of the i-th body (empty where several ranks have refined the bodies).",
                .example = "local relative, parts = s:error_estimate()\nprint(relative, parts.contact_pressure, #parts.cells[1])",
                .run = error_estimate})
       .method({.name = "solution:moved",
