@@ -143,12 +143,13 @@ std::shared_ptr<const mesh::Coarser> coarser_of(const mesh::Submesh& layers, con
 
 }  // namespace
 
-mesh::Mesh refined_near_boundary(const mesh::Mesh& mesh, int times, std::vector<int>& parent, Monitor* watch) {
+NearBoundary refined_near_boundary(const mesh::Mesh& mesh, int times, Monitor* watch) {
   std::vector<int> nodes = mesh::coarser_nodes(mesh);  // of whole meshes
   nodes.insert(nodes.begin(), mesh.node_count());
   Counts count = counts(mesh, mesh::boundary(mesh).size());
   mesh::Submesh now = two_layers(mesh);  // all that lies near the boundary on finer meshes is in these
-  parent = now.cell;
+  std::vector<int> parent = now.cell;
+  std::vector<std::vector<double>> between;
   std::vector<int> node = now.node;
   int node_count = mesh.node_count();
   std::shared_ptr<const mesh::Coarser> coarser = mesh.coarser;
@@ -162,6 +163,7 @@ mesh::Mesh refined_near_boundary(const mesh::Mesh& mesh, int times, std::vector<
     require_memory(refining_bytes(now.mesh), "the boundary of the refined mesh");
     const mesh::Mesh finer = refined(now.mesh, watch);
     const int each = finer.cell_count() / now.mesh.cell_count();
+    if (k > 0) between.insert(between.begin(), std::move(now.mesh.coordinates));
     now = two_layers(finer);
     coarser = now.mesh.coarser = coarser_of(now, finer.coarser->means, node, node_count, coarser);
     std::vector<int> of_layers;
@@ -173,7 +175,7 @@ mesh::Mesh refined_near_boundary(const mesh::Mesh& mesh, int times, std::vector<
   }
   now.mesh.whole = std::make_shared<mesh::Whole>(mesh::Whole{mesh::boundary(now.mesh), std::move(nodes), static_cast<std::int64_t>(count.cells)});
   now.mesh.generated = {now.mesh.coordinates.size(), now.mesh.cells.size()};
-  return std::move(now.mesh);
+  return {std::move(now.mesh), std::move(parent), std::move(between)};
 }
 
 }  // namespace dotyk::elasticity

@@ -25,7 +25,12 @@ Field of_pieces(const Field& field, const mesh::Mesh& mesh, const mesh::Mesh& fi
 double refining_bytes(const mesh::Mesh& mesh);
 
 /// Refines `times` times, and gives only the part of the result that consists of two layers of cells at the boundary; its `whole` tells of the rest. All cells about a
-/// node of the first layer are in it. `parent`: receives, for each of its cells, the cell of `mesh` that it is a piece of. The mesh must be whole and in one piece.
-mesh::Mesh refined_near_boundary(const mesh::Mesh& mesh, int times, std::vector<int>& parent, Monitor* watch = nullptr);
+/// node of the first layer are in it. The mesh must be whole and in one piece.
+struct NearBoundary {
+  mesh::Mesh mesh;
+  std::vector<int> parent;                   ///< the cell of the mesh before that each cell is a piece of
+  std::vector<std::vector<double>> between;  ///< the coordinates of the meshes between the two, likewise of two layers, the finest first
+};
+NearBoundary refined_near_boundary(const mesh::Mesh& mesh, int times, Monitor* watch = nullptr);
 
 }  // namespace dotyk::elasticity

@@ -143,8 +143,8 @@ TEST_CASE("near the boundary a mesh refined twice has the nodes, parts and stres
   for (const Family family : kEveryFamily)
     for (const int dimension : {2, 3}) {
       const Mesh coarse = bent(family, dimension);
-      std::vector<int> parent;
-      const Mesh whole = elasticity::refined(elasticity::refined(coarse)), near = elasticity::refined_near_boundary(coarse, 2, parent);
+      const auto [near, parent, between] = elasticity::refined_near_boundary(coarse, 2);
+      const Mesh whole = elasticity::refined(elasticity::refined(coarse));
       CAPTURE(coarse.topology().name);
       CAPTURE(dimension);
       mesh::check(near, "near the boundary");

@@ -158,6 +158,11 @@ void add_body(const Body& body, Model& model) {
     block.hidden = body.hidden_components();
     block.coarse.rigid = [base = body.unrefined, functions = block.coarse.functions](int levels) {
       const std::vector<algebra::CoarseFunctions> coarse = functions(levels);
+      if (levels < base->times) {
+        mesh::Mesh between;
+        between.element = base->mesh->element, between.coordinates = base->between[static_cast<std::size_t>(levels) - 1];
+        return elasticity::all_rigid_motions(between, coarse.back().column, coarse.back().columns);
+      }
       algebra::DenseMatrix motions = elasticity::all_rigid_motions(*base->mesh, coarse[base->times - 1].column, coarse[base->times - 1].columns);
       for (int level = base->times; level < levels; ++level) motions = coarse[level].at_coarse(motions);
       return motions;

@@ -71,12 +71,12 @@ std::shared_ptr<Body> make_refined_body(std::string name, std::shared_ptr<const 
   } else {
     body = std::make_shared<Body>();
     body->name = std::move(name);
-    std::vector<int> parent;
-    body->mesh = std::make_shared<const mesh::Mesh>(elasticity::refined_near_boundary(*mesh, times, parent, &monitor));
-    mesh::check(*body->mesh, "body '" + body->name + "'");
-    body->material = material.of(parent);
-    body->unrefined = std::make_shared<const Unrefined>(Unrefined{mesh, material, linear, times});
-    linear = linear.of(parent);
+    elasticity::NearBoundary near = elasticity::refined_near_boundary(*mesh, times, &monitor);
+    mesh::check(near.mesh, "body '" + body->name + "'");
+    body->mesh = std::make_shared<const mesh::Mesh>(std::move(near.mesh));
+    body->material = material.of(near.parent);
+    body->unrefined = std::make_shared<const Unrefined>(Unrefined{mesh, material, linear, times, std::move(near.between)});
+    linear = linear.of(near.parent);
   }
   if (linear.any()) load_volume(*body, [&](const elasticity::CellPoint& p) { return linear.at(p.cell, p.x); });
   return body;

@@ -116,6 +116,7 @@ struct Unrefined {
   elasticity::MaterialField material;
   elasticity::LinearForce force;  ///< per volume
   int times;
+  std::vector<std::vector<double>> between;  ///< as elasticity::NearBoundary
 };
 
 /// An elastic body with its supports and loads. All fields are evaluated as they are given:
