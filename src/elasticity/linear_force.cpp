@@ -12,7 +12,7 @@ namespace {
 
 int numbers_of_cell(int dimension) { return dimension * (2 + dimension); }
 
-/// The fit to forces at points: appends the numbers of a cell.
+/// Fits a linear force to forces f at the points x of one cell, and appends its numbers.
 template <int d>
 void append_fit(const std::vector<mesh::Point>& x, const std::vector<mesh::Point>& f, std::vector<double>& numbers) {
   using Vector = Eigen::Matrix<double, d, 1>;
@@ -42,16 +42,14 @@ LinearForce::LinearForce(const mesh::Mesh& mesh, const VectorField& force) : dim
   std::vector<double> numbers;
   bool uniform = true;
   mesh::Point first{0, 0, 0};
-  dispatch(mesh.element, [&]<class E>() {
-    std::vector<mesh::Point> x, f;
-    for_each_load_point<E>(mesh, [&](const CellPoint& p, double, const auto&, const auto&) {
-      x.push_back(p.x), f.push_back(force(p.x));
-      if (p.cell == 0 && p.index == 0) first = f[0];
-      uniform = uniform && std::equal(first.begin(), first.begin() + E::dim, f.back().begin());
-      if (p.index + 1 < E::load_points) return;
-      append_fit<E::dim>(x, f, numbers);
-      x.clear(), f.clear();
-    });
+  std::vector<mesh::Point> x, f;
+  for_each_cell_point(mesh, [&, points = cell_points(mesh)](const CellPoint& p) {
+    x.push_back(p.x), f.push_back(force(p.x));
+    if (p.cell == 0 && p.index == 0) first = f[0];
+    uniform = uniform && std::equal(first.begin(), first.begin() + dimension_, f.back().begin());
+    if (p.index + 1 < points) return;
+    dimension_ == 2 ? append_fit<2>(x, f, numbers) : append_fit<3>(x, f, numbers);
+    x.clear(), f.clear();
   });
   if (uniform) numbers.resize(static_cast<std::size_t>(numbers_of_cell(dimension_)));
   else place_.resize(static_cast<std::size_t>(mesh.cell_count()));

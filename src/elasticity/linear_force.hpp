@@ -12,7 +12,7 @@ namespace dotyk::elasticity {
 class LinearForce {
  public:
   LinearForce() = default;  ///< none
-  /// Cell by cell the least squares fit to a field, which is asked once at each point of the cells' load rule.
+  /// In each cell the one that fits a field best, by least squares, at the points of the load rule. The field is asked once at each point.
   LinearForce(const mesh::Mesh& mesh, const VectorField& force);
 
   /// The force as a list of integers and one of real numbers, and the way back.

@@ -70,6 +70,10 @@ int cell_points(const Mesh& mesh) {
   return dispatch(mesh.element, []<class E>() { return E::load_points; });
 }
 
+void for_each_cell_point(const Mesh& mesh, const std::function<void(const CellPoint&)>& visit) {
+  dispatch(mesh.element, [&]<class E>() { for_each_load_point<E>(mesh, [&](const CellPoint& p, double, const auto&, const auto&) { visit(p); }); });
+}
+
 void add_body_force(const Mesh& mesh, const CellField& f, std::vector<double>& nodal) {
   dispatch(mesh.element, [&]<class E>() {
     for_each_load_point<E>(mesh, [&](const CellPoint& p, double w, const auto& shape, const auto&) {

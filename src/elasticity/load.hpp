@@ -34,6 +34,8 @@ struct CellPoint {
 };
 
 int cell_points(const mesh::Mesh& mesh);
+/// Cell by cell, point by point.
+void for_each_cell_point(const mesh::Mesh& mesh, const std::function<void(const CellPoint&)>& visit);
 
 /// Components at a quadrature point of a cell.
 using CellField = std::function<mesh::Point(const CellPoint&)>;

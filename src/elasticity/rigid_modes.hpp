@@ -55,7 +55,7 @@ struct RigidModes {
 };
 
 /// From geometry and supports alone, exactly: the motions that vanish on every prescribed
-/// component and wherever a spring acts. `sprung`: the mesh that the springs are on; null: the same.
+/// component and wherever a spring acts. `sprung`: the mesh whose facets the springs are on; null: `mesh`.
 RigidModes rigid_modes(const mesh::Mesh& mesh, const Numbering& numbering, const std::vector<FacetSpring>& springs, const mesh::Mesh* sprung = nullptr);
 
 /// What modes make of a load: Rᵀf, and |R|ᵀ|f|, the same without signs.

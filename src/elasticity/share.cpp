@@ -18,7 +18,7 @@ namespace {
 enum Whole { kElement = MaterialField::kWholeLists, kCells, kFixed, kForceKind };
 enum Real { kCoordinates = MaterialField::kRealLists, kForce };
 
-/// So many layers of cells about the flagged nodes.
+/// The cells that have a flagged node, and `layers` − 1 more layers of their neighbours.
 std::vector<int> cells_about(const mesh::Mesh& mesh, std::vector<char> flagged, int layers) {
   std::vector<int> cells = mesh::cells_at(mesh, flagged);
   for (; layers > 1; --layers) {

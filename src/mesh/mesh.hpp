@@ -96,7 +96,7 @@ std::vector<char> flag_nodes(const Mesh& mesh, const std::vector<Facet>& facets)
 /// The cells that have a flagged node, ascending.
 std::vector<int> cells_at(const Mesh& mesh, const std::vector<char>& flagged);
 
-/// Flags the cells whose nodes have all their cells here: of a part of a mesh those at the boundary of the whole, else all.
+/// Flags the cells for whose nodes the mesh has all cells about them. In a part of a mesh these are the cells at the boundary of the whole; in a whole mesh all.
 std::vector<char> surrounded_cells(const Mesh& mesh);
 
 /// The boundary facets that `chosen(centre, unit outward normal)` accepts.

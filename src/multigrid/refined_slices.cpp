@@ -116,7 +116,7 @@ VisitOrder receive_order(const Ranks& ranks) {
   return order;
 }
 
-Lists visit_own(const Ranks& ranks, Given given, const VisitOrder& order, const ShareMakers& makers, const std::vector<double>& own_u) {
+Lists visit_own(const Ranks& ranks, Given given, const VisitOrder& order, const ShareMakers& makers, VisitCells make, const std::vector<double>& own_u) {
   RefinedShare share(ranks, makers.refinable(std::move(given.lists)), order.dimension, std::move(given.number), std::move(given.first), VisitedCells::kLayers);
   for (int k = 0; k < order.times; ++k) share.refine({});
   std::vector<double> u = share.at_nodes(own_u);
@@ -125,7 +125,7 @@ Lists visit_own(const Ranks& ranks, Given given, const VisitOrder& order, const 
   for (std::size_t k = 0; k < u.size() && !prescribed.empty(); ++k)
     if (const auto at = prescribed.find(share.number()[k / order.dimension] * order.dimension + static_cast<int>(k) % order.dimension); at != prescribed.end()) u[k] = at->second;
   const std::vector<int>& first = share.first().front();
-  return makers.visit(static_cast<VisitFor>(order.what), {share.cells(), share.number(), first[ranks.own()], first[ranks.own() + 1], u, order.nodes, ranks.own()}, order.said);
+  return make({share.cells(), share.number(), first[ranks.own()], first[ranks.own() + 1], u, order.nodes, ranks.own()}, order.said);
 }
 
 }  // namespace
@@ -195,7 +195,7 @@ std::vector<Lists> RankVectors::visit(const Visit& visit) {
   return ranks.together([&] {
     workers_.tell(Task::visit);
     Given own = share_cells(ranks, *refinement, visit.share, [&](int r) { send(ranks, r, order); });
-    std::vector<Lists> told{visit_own(ranks, std::move(own), order, visit.makers, own_[visit.u.number()])};
+    std::vector<Lists> told{visit_own(ranks, std::move(own), order, visit.makers, visit.make, own_[visit.u.number()])};
     for (int r = 1; r < ranks.count(); ++r) told.push_back(receive_lists(ranks, r));
     return told;
   });
@@ -204,7 +204,7 @@ std::vector<Lists> RankVectors::visit(const Visit& visit) {
 void visit_for_rank_0(const Ranks& ranks, const ShareMakers& makers, algebra::VectorParts& vectors) {
   const VisitOrder order = receive_order(ranks);
   Given given = receive_given(ranks);
-  send(ranks, 0, visit_own(ranks, std::move(given), order, makers, vectors[order.u]));
+  send(ranks, 0, visit_own(ranks, std::move(given), order, makers, makers.visit(static_cast<VisitFor>(order.what)), vectors[order.u]));
 }
 
 }  // namespace dotyk::multigrid

@@ -24,12 +24,14 @@ struct VisitedCells {
 };
 /// What they are visited for: see script/visits.hpp.
 enum class VisitFor : int { estimate, point, write };
+/// What a process makes of them, to tell rank 0. `said`: by rank 0.
+using VisitCells = Lists (*)(const VisitedCells& at, const Lists& said);
 
 /// What a process makes of a share.
 struct ShareMakers {
   algebra::StoredMatrix (*assemble)(Lists lists);                        ///< the lower triangle of its matrix
   std::unique_ptr<algebra::Refinable> (*refinable)(Lists lists);         ///< cells that are to be refined first
-  Lists (*visit)(VisitFor what, const VisitedCells& at, const Lists& said) = nullptr;  ///< what it tells rank 0, which has said something
+  VisitCells (*visit)(VisitFor what) = nullptr;                          ///< for ranks other than 0, which are told what they are visited for
 };
 
 /// Calls visit(i, j) for pairs, some of them several times. It is called twice and gives the same pairs.
@@ -66,10 +68,11 @@ struct Refined {
 struct Visit {
   std::function<Share(const std::vector<char>& own)> share;  ///< as that of Refined::base, but with VisitedCells::kLayers layers of cells
   ShareMakers makers;
+  VisitFor what;
+  VisitCells make;          ///< for this process; the others have it from ShareMakers::visit
   const algebra::Field& u;  ///< it lies where the slices of such a matrix did
   std::vector<int> components;  ///< prescribed ones, node × dimension of all bodies as they are here
   std::vector<double> values;   ///< of these
-  VisitFor what;
   Lists said;              ///< what all ranks are told
   std::vector<int> nodes;  ///< as they are here, of all bodies; the ranks are told their numbers
 };

@@ -145,7 +145,7 @@ void take_slices(Problem& problem, const std::shared_ptr<const algebra::SlicedMa
 const algebra::SlicedMatrix* slices(const Problem& problem);
 /// Vectors that lie with the slices, or here where there are none. `watched`: unknowns, ascending.
 std::shared_ptr<algebra::Vectors> vectors(const Problem& problem, const std::vector<int>& watched = {});
-/// The load, f of all blocks and what the slices have, as such a vector. `where`: of vectors(); null: of new ones.
+/// The whole load as such a vector: f of all blocks, and the load that the slices have. `where`: what vectors() gave; null: it is asked for new ones.
 algebra::Field whole_load(const Problem& problem, std::shared_ptr<algebra::Vectors> where = nullptr);
 /// u as such a vector: its own where it lies so already.
 std::shared_ptr<const algebra::Field> field(const Problem& problem, const Displacement& u);

@@ -62,11 +62,7 @@ bool full_rank(const SparseRows& B) {
 /// Would the problem without friction keep its motions bounded?
 bool coercive_without_friction(const Problem& problem) {
   Problem bare;
-  for (const Block& block : problem.blocks) {
-    bare.blocks.push_back({block.name, {}, block.f, 0, {}, block.kernel, block.motions, block.first});
-    bare.blocks.back().sliced_resultants = block.sliced_resultants, bare.blocks.back().gross_sliced_resultants = block.gross_sliced_resultants;
-  }
-  bare.sliced_load = problem.sliced_load;
+  bare.blocks = problem.blocks, bare.sliced_load = problem.sliced_load;
   bare.c = problem.c;
   bare.groups = problem.groups;
   for (const FrictionGroup& group : problem.friction)  // free rows

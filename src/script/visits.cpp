@@ -7,11 +7,11 @@
 
 namespace dotyk::script {
 
-Lists visit(multigrid::VisitFor what, const multigrid::VisitedCells& at, const Lists& said) {
+multigrid::VisitCells visit(multigrid::VisitFor what) {
   switch (what) {
-    case multigrid::VisitFor::estimate: return scene::estimate_cells(at, said);
-    case multigrid::VisitFor::point: return scene::values_at_point(at, said);
-    case multigrid::VisitFor::write: return figure::write_cells(at, said);
+    case multigrid::VisitFor::estimate: return scene::estimate_cells;
+    case multigrid::VisitFor::point: return scene::values_at_point;
+    case multigrid::VisitFor::write: return figure::write_cells;
   }
   throw std::logic_error("a visit for nothing known");
 }

@@ -5,6 +5,6 @@
 namespace dotyk::script {
 
 /// What any rank makes of its cells when rank 0 visits them.
-Lists visit(multigrid::VisitFor what, const multigrid::VisitedCells& at, const Lists& said);
+multigrid::VisitCells visit(multigrid::VisitFor what);
 
 }  // namespace dotyk::script

@@ -103,8 +103,7 @@ void write_pieces(const scene::Solution& solution, const std::string& file) {
   for (const GridArray& array : contacts) list.arrays.push_back({array.name, array.components, {}});
   check(list);
   std::filesystem::remove(place_to_write(file));
-  const auto told = scene::visit_refined(solution.model(), solution.result().state.u, multigrid::VisitFor::write,
-                                         [](multigrid::VisitFor, const multigrid::VisitedCells& at, const Lists& said) { return write_cells(at, said); }, std::move(said), std::move(nodes));
+  const auto told = scene::visit_refined(solution.model(), solution.result().state.u, multigrid::VisitFor::write, write_cells, std::move(said), std::move(nodes));
   for (std::size_t r = 0; r < told.size(); ++r) {
     if (!told[r].whole[0].empty()) throw InputError(text("rank ", r, ": ", text_of(told[r].whole[0])));
     if (told[r].whole[1][0]) list.written.push_back(std::filesystem::path(piece_name(file, static_cast<int>(r))).filename().string());

@@ -18,7 +18,7 @@ Entries entries_of(int rank, const algebra::Triplets& added, const Numbering& nu
 void send(const Ranks& ranks, int to, const Entries& entries);
 Entries receive_entries(const Ranks& ranks);  ///< from rank 0
 
-/// The slice of a rank other than 0, which learns its diagonal.
+/// Makes the slice of a rank other than 0, and tells rank 0 its diagonal and how many entries it has.
 std::unique_ptr<Slice> told_slice(const Ranks& ranks, HalfRows rows, const std::vector<int>& idle, AllOwnFunctions functions, OwnLoad load = nullptr);
 
 }  // namespace dotyk::multigrid

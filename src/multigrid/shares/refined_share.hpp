@@ -21,8 +21,8 @@ PrescribedBits prescribed_bits(const std::vector<int>& rows, int dimension);
 /// cells about it.
 class RefinedShare {
  public:
-  /// `dimension`: components of a node; `number`: of each node of the cells; `first`: of each rank its first node, and the number of all; `layers`: of cells about
-  /// own nodes that are given and kept.
+  /// `dimension`: components of a node; `number`: of each node of the cells; `first`: the first node of each rank, then the number of all nodes; `layers`: how many layers
+  /// of cells about own nodes are given and kept.
   RefinedShare(const Ranks& ranks, std::unique_ptr<algebra::Refinable> cells, int dimension, std::vector<int> number, std::vector<int> first, int layers = 1);
 
   /// Refines once, and keeps the cells about own nodes. The numbers do not depend on how many layers there are. `asked`: of any nodes of the finer mesh, the numbers of the nodes whose mean each is. Returns the numbers

@@ -140,7 +140,7 @@ void assemble_slices(Model& model) {
   take_slices(problem, multigrid::make_slices({coupling, [&](const std::vector<char>& own) { return share_of_all(sources, own); }, kMakers, springs}));
 }
 
-std::vector<Lists> visit_refined(const Model& model, const problem::Displacement& u, multigrid::VisitFor what, decltype(multigrid::ShareMakers::visit) make, Lists said, std::vector<int> nodes) {
+std::vector<Lists> visit_refined(const Model& model, const problem::Displacement& u, multigrid::VisitFor what, multigrid::VisitCells make, Lists said, std::vector<int> nodes) {
   if (!u.there()) throw InputError("the displacement inside bodies with refine, which the ranks had, is known no more");
   const std::vector<elasticity::Numbering> numbering = coarse_numbering(model);
   const std::vector<Source> sources = coarse_sources(model, numbering);
@@ -150,10 +150,8 @@ std::vector<Lists> visit_refined(const Model& model, const problem::Displacement
   for (std::size_t b = 0; b < model.bodies.size(); first += static_cast<int>(model.numbering[b].unknown.size()), ++b)
     for (std::size_t k = 0; k < model.numbering[b].unknown.size(); ++k)
       if (const double value = model.numbering[b].value(k); model.numbering[b].unknown[k] < 0 && value != 0) components.push_back(first + static_cast<int>(k)), values.push_back(value);
-  multigrid::ShareMakers makers = kMakers;
-  makers.visit = make;
-  return multigrid::visit({[&](const std::vector<char>& own) { return share_of_all(sources, own, multigrid::VisitedCells::kLayers); }, makers, *u.there(),
-                                    std::move(components), std::move(values), what, std::move(said), std::move(nodes)});
+  return multigrid::visit({[&](const std::vector<char>& own) { return share_of_all(sources, own, multigrid::VisitedCells::kLayers); }, kMakers, what, make, *u.there(),
+                                    std::move(components), std::move(values), std::move(said), std::move(nodes)});
 }
 
 }  // namespace dotyk::scene

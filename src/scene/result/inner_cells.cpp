@@ -20,13 +20,11 @@ std::vector<Point> mean_forces(const elasticity::ShareCells& cells, double facto
   std::vector<Point> mean;
   if (!cells.force.any()) return mean;
   mean.assign(static_cast<std::size_t>(cells.mesh.cell_count()), Point{0, 0, 0});
-  std::vector<double> nodal(cells.mesh.coordinates.size(), 0.0);
   const double share = factor / elasticity::cell_points(cells.mesh);
-  elasticity::add_body_force(cells.mesh, [&](const elasticity::CellPoint& p) {
-    const Point f = cells.force.at(p.cell, p.x);
-    for (int i = 0; i < 3; ++i) mean[static_cast<std::size_t>(p.cell)][i] += share * f[i];
-    return f;
-  }, nodal);
+  elasticity::for_each_cell_point(cells.mesh, [&](const elasticity::CellPoint& p) {
+    Point& sum = mean[static_cast<std::size_t>(p.cell)];
+    sum = mesh::plus(sum, mesh::times(share, cells.force.at(p.cell, p.x)));
+  });
   return mean;
 }
 
@@ -50,8 +48,7 @@ Lists estimate_cells(const multigrid::VisitedCells& at, const Lists& said) {
 InnerEstimate inner_estimate(const Solution& solution) {
   std::vector<double> factor;
   for (const Body& body : solution.model().bodies) factor.push_back(body.volume_load ? body.volume_load->factor : 0);
-  const auto told = visit_refined(solution.model(), solution.result().state.u, multigrid::VisitFor::estimate,
-                                  [](multigrid::VisitFor, const multigrid::VisitedCells& at, const Lists& said) { return estimate_cells(at, said); }, {{}, {factor}});
+  const auto told = visit_refined(solution.model(), solution.result().state.u, multigrid::VisitFor::estimate, estimate_cells, {{}, {factor}});
   InnerEstimate sum{{}, std::vector<double>(factor.size(), 0.0)};
   for (const Lists& of_rank : told)
     for (std::size_t b = 0; b < factor.size(); ++b) {
@@ -87,9 +84,7 @@ Lists values_at_point(const multigrid::VisitedCells& at, const Lists& said) {
 }
 
 std::optional<InnerValues> inner_values(const Solution& solution, int body, const Point& x) {
-  const auto told = visit_refined(solution.model(), solution.result().state.u, multigrid::VisitFor::point,
-                                  [](multigrid::VisitFor, const multigrid::VisitedCells& at, const Lists& said) { return values_at_point(at, said); },
-                                  {{{body}}, {{x[0], x[1], x[2]}}});
+  const auto told = visit_refined(solution.model(), solution.result().state.u, multigrid::VisitFor::point, values_at_point, {{{body}}, {{x[0], x[1], x[2]}}});
   for (const Lists& of_rank : told) {
     const std::vector<double>& numbers = of_rank.real[0];
     if (numbers.empty()) continue;

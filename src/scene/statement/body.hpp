@@ -132,8 +132,8 @@ struct Body {
   std::vector<LawSupport> laws;
   std::optional<VolumeLoad> volume_load;  ///< of no case
   std::vector<FacetLoad> facet_loads;
-  /// Nodal loads of no case, node × dimension: the sums of what these loads give (see sum_loads); empty: none. Where ranks refine the body, without the load per
-  /// volume, which goes to the cells that they have.
+  /// Nodal loads of no case, node × dimension: the sums of what these loads give (see sum_loads); empty: none. Where ranks refine the body the
+  /// load per volume is not in it: they assemble that load themselves.
   std::vector<double> force;
   double force_at(std::size_t component) const { return force.empty() ? 0 : force[component]; }
   std::vector<LoadCase> cases;

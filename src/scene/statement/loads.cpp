@@ -77,12 +77,20 @@ void pressure(Part& part, const elasticity::ScalarField& value, const std::strin
   add(part, load_case, true, [&](const FacetPoint& p, std::vector<double>& values) { values.push_back(value(p.x)); });
 }
 
+namespace {
+
+void add_volume_forces(const Body& body, std::vector<double>& nodal) {
+  elasticity::add_body_force(*body.mesh, [&](const elasticity::CellPoint& p) { return body.volume_load->at(p.cell, p.index, body.dimension()); }, nodal);
+}
+
+}  // namespace
+
 void load_volume(Body& body, const elasticity::CellField& force) {
   const std::size_t dim = body.dimension();
   VolumeLoad load{elasticity::cell_points(*body.mesh), true, nullptr, 1};
-  std::vector<double> values, nodal(body.mesh->coordinates.size(), 0.0);  // the values: while they are all alike, one
+  std::vector<double> values;  // while they are all alike, one
   std::size_t known = 0;
-  elasticity::add_body_force(*body.mesh, [&](const elasticity::CellPoint& p) {
+  elasticity::for_each_cell_point(*body.mesh, [&](const elasticity::CellPoint& p) {
     const Point f = force(p);
     if (known > 0 && load.uniform && !std::equal(f.begin(), f.begin() + dim, values.begin())) {
       load.uniform = false;
@@ -91,23 +99,15 @@ void load_volume(Body& body, const elasticity::CellField& force) {
     }
     if (known == 0 || !load.uniform) values.insert(values.end(), f.begin(), f.begin() + dim);
     ++known;
-    return f;
-  }, body.unrefined ? nodal : nodal_loads(body));
+  });
   load.values = std::make_shared<const std::vector<double>>(std::move(values));
   body.volume_load = std::move(load);
+  if (!body.unrefined) add_volume_forces(body, nodal_loads(body));
 }
 
 void load_volume(Body& body, const elasticity::VectorField& force) {
   load_volume(body, [&](const elasticity::CellPoint& p) { return force(p.x); });
 }
-
-namespace {
-
-void add_volume_forces(const Body& body, std::vector<double>& nodal) {
-  elasticity::add_body_force(*body.mesh, [&](const elasticity::CellPoint& p) { return body.volume_load->at(p.cell, p.index, body.dimension()); }, nodal);
-}
-
-}  // namespace
 
 std::vector<double> volume_forces(const Body& body) {
   std::vector<double> nodal;
