@@ -113,6 +113,14 @@ if not told("cube(4)"):find("libpetsc", 1, true) then
       local c = scene:contact{ b:part"top", rigid = dotyk.rigid.gap{ normal = {0,0,1}, gap = function(x, y) return ((x - 0.5)^2 + (y - 0.5)^2) / 2 - 0.05 end }, interference = true }
       say(dotyk.solver.multigrid{}:solve(scene), c, b, b:part"bottom", 1, 0.5, 0.75)
     end
+    -- Midside nodes: rows of contact that several ranks' unknowns share, solved exactly beside sweeps of small pieces.
+    local function quadratic()
+      local b = dotyk.body{ material = dotyk.material{ E = 1000, nu = 0.4 }, refine = 1, mesh = dotyk.mesh.box{ from = {0,0,0}, to = {1,1,0.5}, cells = {4,4,2}, element = "Q2" } }
+      b:part"bottom":fix()
+      local scene = dotyk.scene{ b }
+      local c = scene:contact{ b:part"top", rigid = dotyk.rigid.ball{ center = {0.5,0.5,2.48}, radius = 2 }, interference = true }
+      say(dotyk.solver.multigrid{}:solve(scene), c, b, b:part"bottom", 1, 0.5, 0.25)
+    end
     local function clamped()
       local b = dotyk.body{ material = material(1000), refine = 3, mesh = dotyk.mesh.box{ from = {0,0,0}, to = {1,1,1}, cells = {2,2,2} } }
       local clamp = b:part("clamp", function(x, y, z) return x == 0 and y < 0.4 and z < 0.4 end)
@@ -172,7 +180,7 @@ if not told("cube(4)"):find("libpetsc", 1, true) then
         print(("|%.9g %.9g|"):format(least[array], greatest[array]))
       end
     end
-    blocks() plane() cube() clamped() apart() loaded() ]]
+    blocks() plane() cube() quadratic() clamped() apart() loaded() ]]
   local function numbers(text)
     local all <const> = {}
     for line in text:gmatch "|(.-)|" do
@@ -184,7 +192,7 @@ if not told("cube(4)"):find("libpetsc", 1, true) then
   local file <const> = os.tmpname()
   refined = ("local FILE = %q\n"):format(file) .. refined
   local alone <const> = numbers(told("dotyk.ranks(1)" .. refined))
-  check.that(#alone == 5 + 2 * 7 + 1 + 5, "five scenes on one rank, and one in two steps")
+  check.that(#alone == 6 + 2 * 7 + 1 + 5, "six scenes on one rank, and one in two steps")
   for _, ranks in ipairs{ 2, 3, 5 } do
     local text <const> = told("dotyk.ranks(" .. ranks .. ")" .. refined)
     local several <const> = numbers(text)

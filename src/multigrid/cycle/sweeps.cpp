@@ -5,7 +5,7 @@
 
 namespace dotyk::multigrid {
 
-void Sweeps::set(double omega) {
+void Sweeps::set(const std::vector<int>& solved) {
   double greatest = 0;
   for (int row = 0; row < A_.rows(); ++row) greatest = std::max(greatest, A_.diagonal(row));
   unit_ = std::exp2(std::ilogb(greatest > 0 && std::isfinite(greatest) ? greatest : 1));
@@ -15,8 +15,8 @@ void Sweeps::set(double omega) {
   for (std::size_t k = 0; k < count; ++k) below_[k] = static_cast<float>(of.below[k] / unit_);
   inverse_.resize(static_cast<std::size_t>(of.nodes()) * square);
   for (std::size_t at = 0; at < inverse_.size(); at += square) invert(of.size, of.diagonal + at, inverse_.data() + at);
-  for (const int node : A_.border())
-    for (std::size_t k = 0; k < square; ++k) inverse_[node * square + k] *= omega;
+  const std::vector<NodeBlock> damped = damped_blocks(A_, solved);
+  for (std::size_t k = 0; k < damped.size(); ++k) invert(of.size, damped[k].data(), inverse_.data() + A_.border()[k] * square);
   take_border();
 }
 

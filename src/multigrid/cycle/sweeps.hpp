@@ -1,6 +1,7 @@
 // Sweeps of Gauss and Seidel.
 #pragma once
 
+#include <Eigen/Core>
 #include <optional>
 #include <vector>
 
@@ -19,8 +20,8 @@ class Sweeps {
     if (!A.ranks().alone()) moved_.emplace(A.block(), A.nodes());
   }
 
-  /// Takes the numbers of A, and the relaxation ω of nodes that are coupled to other ranks.
-  void set(double omega);
+  /// Takes the numbers of A. `solved`: rows of this rank, counted from its first, ascending, that are solved exactly as well.
+  void set(const std::vector<int>& solved = {});
   /// x = M⁻¹ b where M is a sweep, and left = b − A x, which the sweep computes on its way. `left` may be `b`.
   void forward(const double* b, double* x, double* left);
   /// x += M⁻ᵀ (b − A x).
@@ -45,13 +46,15 @@ class Sweeps {
   } border_;
 };
 
-/// The relaxation factor ω of such sweeps at nodes that are coupled to other ranks; 1 on one rank. A = A_local + A_between, where A_between couples nodes of
-/// different ranks, and D has the blocks of the diagonal. The matrix M of a sweep satisfies M + Mᵀ − A = (2/ω − 1) D − A_between, where ω is 1 at other nodes. If
-/// this is positive definite, the sweep converges and a V-cycle of it is positive definite (Baker, Falgout, Kolev and Yang, SIAM J. Sci. Comput. 33 (2011),
-/// §4). The second sweep of the border meets the same condition on these nodes alone. So ω = min(1, 2/(1 + c)) where c is the greatest eigenvalue of
-/// D^−1/2 A_between D^−1/2, by Lanczos and 3 % more. c is below 1 if pieces are large, and up to 3.3 if most nodes of a rank are coupled to others.
-/// `solved`: rows of this rank, counted from its first, ascending, that are solved exactly as well; they are left out of the eigenvalue problem.
-/// Collective.
-double damping(HalfMatrix& A, const std::vector<int>& solved = {});
+using NodeBlock = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, kMostRows, kMostRows>;
+
+/// What such sweeps divide by at the nodes that are coupled to other ranks, in the order of A.border(). A = A_local + A_between, where A_between couples nodes of
+/// different ranks, and D has the blocks of the diagonal. Where a sweep has blocks E in place of D at these nodes, its matrix M satisfies
+/// M + Mᵀ − A = 2E − D − A_between, and D at other nodes. If this is positive definite, the sweep converges and a V-cycle of it is positive definite (Baker,
+/// Falgout, Kolev and Yang, SIAM J. Sci. Comput. 33 (2011), §4). The second sweep of the border meets the same condition on these nodes alone. So
+/// E = (D + max(1, c) W D W)/2 where c is the greatest eigenvalue of A_between over W D W, as Lanczos bounds it within 3 %, and W is 1; c is below 1 if
+/// pieces are large, and up to 3.3 if most nodes of a rank are coupled to others. At rows that are `solved` exactly as well, counted from the rank's first,
+/// ascending, W is √8: few rows with a large c would slow down the sweep of all others. Collective.
+std::vector<NodeBlock> damped_blocks(HalfMatrix& A, const std::vector<int>& solved);
 
 }  // namespace dotyk::multigrid
