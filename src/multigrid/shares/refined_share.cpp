@@ -1,6 +1,7 @@
 #include "multigrid/shares/refined_share.hpp"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <span>
 #include <stdexcept>
@@ -32,7 +33,7 @@ class Questions {
  public:
   explicit Questions(const Ranks& ranks) : ranks_(ranks), asked_(static_cast<std::size_t>(ranks.count())), places_(asked_) {}
 
-  void ask(std::size_t rank, std::span<const int> means, std::size_t place) {
+  void ask(int rank, std::span<const int> means, std::size_t place) {
     asked_[rank].push_back(static_cast<int>(means.size()));
     asked_[rank].insert(asked_[rank].end(), means.begin(), means.end());
     places_[rank].push_back(static_cast<int>(place));
@@ -66,9 +67,49 @@ Rows by_number(const Buckets& means, const std::vector<int>& number) {
   return all;
 }
 
-/// Of a rank's nodes: those of a clump follow one another. New nodes between ranks go to the one and to the other by clumps, so that no rank gets more than others
-/// and borders stay short.
-constexpr int kClumps = 16;
+/// The rank that owns a number; `first`: as in RefinedShare.
+int rank_with(const std::vector<int>& first, int number) { return static_cast<int>(std::ranges::upper_bound(first, number) - first.begin()) - 1; }
+
+/// Which rank gets a new node that is the mean of nodes of two: the one with the least number where that is below a bound, else the one with the greatest. So a
+/// border is cut once, and stays short. The bounds make the ranks' shares alike: neighbours meet half-way, as far as the nodes between them go.
+class Owners {
+ public:
+  /// `means`: of the nodes of this rank's cells. Collective.
+  Owners(const Ranks& ranks, const Rows& means, const std::vector<int>& first) : first_(first) {
+    std::map<int, std::vector<int>> between;  // by the other rank: of nodes with their least number here that number, of the others nothing
+    int halves = 0;                           // of nodes: those between ranks are half here
+    for (std::size_t i = 0; i + 1 < means.starts.size(); ++i) {
+      const auto of = columns_of(means, i);
+      const int low = rank_with(first, of.front()), high = rank_with(first, of.back());
+      halves += (low == ranks.own()) + (high == ranks.own());
+      if (low == high || (low != ranks.own() && high != ranks.own())) continue;
+      std::vector<int>& least = between[low == ranks.own() ? high : low];
+      if (low == ranks.own()) least.push_back(of.front());
+    }
+    const std::vector<int> share = ranks.gather(halves);
+    std::vector<int> told;
+    for (auto& [other, least] : between) {
+      if (least.empty()) continue;
+      const auto spare = (share[other] - share[ranks.own()]) / (4 * std::ssize(between));  // what this rank would take more than half
+      const auto taken = std::clamp<std::ptrdiff_t>(std::ssize(least) / 2 + spare, 0, std::ssize(least));
+      std::ranges::sort(least);
+      told.insert(told.end(), {ranks.own(), other, taken < std::ssize(least) ? least[taken] : first[ranks.own() + 1]});
+    }
+    for (const std::vector<int>& in : ranks.exchange(std::vector<std::vector<int>>(first.size() - 1, told)))
+      for (std::size_t k = 0; k < in.size(); k += 3) bound_[{in[k], in[k + 1]}] = in[k + 2];
+  }
+
+  /// One of the nodes whose mean it is: its rank has the new one.
+  int decides(std::span<const int> of) const {
+    const int low = rank_with(first_, of.front()), high = rank_with(first_, of.back());
+    return low == high || of.front() < bound_.at({low, high}) ? of.front() : of.back();
+  }
+  int rank(std::span<const int> of) const { return rank_with(first_, decides(of)); }
+
+ private:
+  const std::vector<int>& first_;
+  std::map<std::pair<int, int>, int> bound_;
+};
 
 /// Flagged nodes in an order that depends on what they are the means of alone.
 std::vector<int> own_in_order(const Rows& means, const std::vector<char>& own) {
@@ -98,12 +139,9 @@ std::vector<int> RefinedShare::refine(const Rows& asked) {
   const Rows means = by_number(cells_->refine(), number_);
   const std::vector<int>& first = first_.front();
   const int begin = first[ranks_.own()], end = first[ranks_.own() + 1];
-  const auto decides = [clump = std::max(1, first.back() / (kClumps * ranks_.count()))](std::span<const int> of_node) {
-    return of_node.front() / clump % 2 == 0 ? of_node.front() : of_node.back();
-  };
-  const auto rank_of = [&](std::span<const int> of_node) { return static_cast<std::size_t>(std::ranges::upper_bound(first, decides(of_node)) - first.begin()) - 1; };
+  const Owners owners(ranks_, means, first);
   std::vector<char> own(means.starts.size() - 1);
-  for (std::size_t i = 0; i < own.size(); ++i) own[i] = decides(columns_of(means, i)) >= begin && decides(columns_of(means, i)) < end;
+  for (std::size_t i = 0; i < own.size(); ++i) own[i] = owners.rank(columns_of(means, i)) == ranks_.own();
   std::vector<int> finer = firsts(ranks_, static_cast<int>(std::ranges::count(own, 1)));
 
   const std::vector<int> before = cells_->keep(own, layers_), in_order = own_in_order(means, own);
@@ -119,16 +157,16 @@ std::vector<int> RefinedShare::refine(const Rows& asked) {
   for (std::size_t k = 0; k < before.size(); ++k) {
     const auto i = static_cast<std::size_t>(before[k]);
     if (own[i]) numbers[k] = number[i];
-    else questions.ask(rank_of(columns_of(means, i)), columns_of(means, i), k);
+    else questions.ask(owners.rank(columns_of(means, i)), columns_of(means, i), k);
   }
-  for (std::size_t a = 0; a + 1 < asked.starts.size(); ++a) questions.ask(rank_of(columns_of(asked, a)), columns_of(asked, a), before.size() + a);
+  for (std::size_t a = 0; a + 1 < asked.starts.size(); ++a) questions.ask(owners.rank(columns_of(asked, a)), columns_of(asked, a), before.size() + a);
   const Buckets decided(end - begin, [&](auto&& put) {
     for (std::size_t i = 0; i < own.size(); ++i)
-      if (own[i]) put(decides(columns_of(means, i)) - begin, static_cast<int>(i));
+      if (own[i]) put(owners.decides(columns_of(means, i)) - begin, static_cast<int>(i));
   });
   questions.answer(
       [&](std::span<const int> of) {
-        for (const int i : decided[decides(of) - begin])
+        for (const int i : decided[owners.decides(of) - begin])
           if (std::ranges::equal(columns_of(means, static_cast<std::size_t>(i)), of)) return number[i];
         throw std::logic_error("refined share: a node that its rank has not");
       },
@@ -161,8 +199,8 @@ std::vector<double> RefinedShare::at_nodes(const std::vector<double>& own) const
   std::vector<std::vector<int>> asked(static_cast<std::size_t>(ranks_.count())), places = asked;
   const auto copy = [&](int number, double* to) { std::copy_n(own.begin() + static_cast<std::ptrdiff_t>((number - first[ranks_.own()]) * d), d, to); };
   for (std::size_t k = 0; k < number_.size(); ++k) {
-    const auto rank = static_cast<std::size_t>(std::ranges::upper_bound(first, number_[k]) - first.begin()) - 1;
-    if (static_cast<int>(rank) == ranks_.own()) copy(number_[k], all.data() + k * d);
+    const int rank = rank_with(first, number_[k]);
+    if (rank == ranks_.own()) copy(number_[k], all.data() + k * d);
     else asked[rank].push_back(number_[k]), places[rank].push_back(static_cast<int>(k));
   }
   const auto of_others = ranks_.exchange(asked);
