@@ -19,7 +19,8 @@ namespace {
 /// Below so many unknowns nothing takes long enough to be worth an estimate.
 constexpr int kLarge = 8000;
 /// Multigrid is taken where it is kClearly times as fast as factors, or kFactorIsKept times where all steps of a history use one factor.
-constexpr double kClearly = 1.2, kFactorIsKept = 10;
+constexpr double kClearly = 1.1, kFactorIsKept = 10;
+constexpr double kOpening = 0.15;  ///< seconds that the library of multigrid takes to open
 
 bool multigrid_is_possible(const problem::Problem& problem) {
   const bool solid = std::all_of(problem.blocks.begin(), problem.blocks.end(), [](const problem::Block& b) { return bool(b.rigid); });
@@ -32,12 +33,12 @@ bool multigrid_is_faster(const problem::Problem& problem, double times = kClearl
   return seconds.factors > times * seconds.multigrid;
 }
 
-/// The number of iterations a linear system beyond which factors are the faster way.
+/// The number of iterations a linear system beyond which factors are the faster way, once the library is open.
 double most_iterations(const problem::Problem& problem) {
   constexpr double kShare = 0.4;  // of the seconds that the usual ones take
   const double usual = problem::coarser_meshes(problem) > 1 ? 25 : 45;
   const Expected seconds = expected(problem);
-  return usual * (1 + std::max(0.0, seconds.factors / seconds.multigrid - 1) / kShare);
+  return usual * (1 + std::max(0.0, seconds.factors / (seconds.multigrid - kOpening) - 1) / kShare);
 }
 
 /// Has nearly every row an unknown that no other row has, as those of mortar glue of order 1 do? Else the basis of rows fills up.
@@ -63,7 +64,7 @@ bool rows_stand_apart(const problem::Problem& problem) {
 Expected expected(const problem::Problem& problem) {
   // Constants measured by scripts/studies/crossing.lua, for n unknowns and m points of contact with d components each. A factor by nested dissection takes
   // 7.5 n² operations in space and 210 n^1.5 in the plane. Contact takes 3 (dm)³ more for its dense matrices, or else a factor a step. Ordering grows with n.
-  constexpr double kFlops = 1.2e10, kOpening = 0.15, kSteps = 8;  // opening: of the library
+  constexpr double kFlops = 1.2e10, kSteps = 8;
   constexpr int kRigidMotions = 6;
   const bool space = problem.blocks.front().rigid().cols() == kRigidMotions;
   const bool geometric = problem::coarser_meshes(problem) > 1;
