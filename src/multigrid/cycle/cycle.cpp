@@ -95,7 +95,7 @@ bool Cycle::set(const Change& change) {
   if (!hierarchy_.set(change)) return false;
   double of_sweeps = 0;
   for (std::size_t l = 0; l < levels_.size(); ++l) {
-    levels_[l].sweeps.set(l == 0 ? change.shared : std::vector<int>());
+    l == 0 ? levels_[l].sweeps.set(change.shared) : levels_[l].sweeps.set();
     of_sweeps += levels_[l].sweeps.bytes();
   }
   if (!ranks_.all(shared_.set(hierarchy_.matrix(0), change.shared))) return false;

@@ -49,12 +49,12 @@ class Sweeps {
 using NodeBlock = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, kMostRows, kMostRows>;
 
 /// What such sweeps divide by at the nodes that are coupled to other ranks, in the order of A.border(). A = A_local + A_between, where A_between couples nodes of
-/// different ranks, and D has the blocks of the diagonal. Where a sweep has blocks E in place of D at these nodes, its matrix M satisfies
-/// M + Mᵀ − A = 2E − D − A_between, and D at other nodes. If this is positive definite, the sweep converges and a V-cycle of it is positive definite (Baker,
-/// Falgout, Kolev and Yang, SIAM J. Sci. Comput. 33 (2011), §4). The second sweep of the border meets the same condition on these nodes alone. So
-/// E = (D + max(1, c) W D W)/2 where c is the greatest eigenvalue of A_between over W D W, as Lanczos bounds it within 3 %, and W is 1; c is below 1 if
-/// pieces are large, and up to 3.3 if most nodes of a rank are coupled to others. At rows that are `solved` exactly as well, counted from the rank's first,
-/// ascending, W is √8: few rows with a large c would slow down the sweep of all others. Collective.
+/// different ranks, and D has the blocks of the diagonal. The matrix M of a sweep that divides by blocks E satisfies M + Mᵀ − A = 2E − D − A_between; E is D at all
+/// other nodes. If this is positive definite, the sweep converges and a V-cycle of it is positive definite (Baker, Falgout, Kolev and Yang, SIAM J. Sci.
+/// Comput. 33 (2011), §4). The second sweep of the border meets the same condition on these nodes alone. So E = (D + max(1, c) W D W)/2, where c is the
+/// greatest eigenvalue of A_between v = c W D W v, as Lanczos estimates it. W is diagonal: √8 at rows that are `solved` exactly as well (counted from the
+/// rank's first, ascending), 1 at all others. Few solved rows would else make c large, and the sweep of all others slow. Without them c is below 1 if pieces
+/// are large, and up to 3.3 if most nodes of a rank are coupled to others. Collective.
 std::vector<NodeBlock> damped_blocks(HalfMatrix& A, const std::vector<int>& solved);
 
 }  // namespace dotyk::multigrid

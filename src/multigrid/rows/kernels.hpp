@@ -60,10 +60,10 @@ void invert(int rows, const double* block, double* inverse);
 /// y = A x.
 void multiply(const HalfBlocks<double>& A, PaddedVector& x, PaddedVector& y);
 
-/// x = (D/ω + L)⁻¹ left, then left −= A x. `inverse`: the blocks of ω D⁻¹.
+/// x = (E + L)⁻¹ left, then left −= A x. `inverse`: the blocks of E⁻¹, where E is D, or damped.
 void sweep_forward(const HalfBlocks<float>& A, const double* inverse, PaddedVector& x, PaddedVector& left);
 
-/// x += (D/ω + Lᵀ)⁻¹ (b − A x). `b` is changed.
+/// x += (E + Lᵀ)⁻¹ (b − A x). `b` is changed.
 void sweep_backward(const HalfBlocks<float>& A, const double* inverse, PaddedVector& b, PaddedVector& x);
 
 /// Sweeps over some nodes alone. `rows`: of the k-th of them all blocks beside the diagonal; D and `inverse` have all nodes.

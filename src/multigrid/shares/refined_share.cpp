@@ -1,6 +1,7 @@
 #include "multigrid/shares/refined_share.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <span>
@@ -70,11 +71,12 @@ Rows by_number(const Buckets& means, const std::vector<int>& number) {
 /// The rank that owns a number; `first`: as in RefinedShare.
 int rank_with(const std::vector<int>& first, int number) { return static_cast<int>(std::ranges::upper_bound(first, number) - first.begin()) - 1; }
 
-/// Which rank gets a new node that is the mean of nodes of two: the one with the least number where that is below a bound, else the one with the greatest. So a
-/// border is cut once, and stays short. The bounds make the ranks' shares alike: neighbours meet half-way, as far as the nodes between them go.
+/// Which rank gets a new node that is the mean of nodes of two: the one with the least number where that is below a bound, else the one with the greatest. So
+/// most borders are cut once, and stay short. The bounds keep the shares as those of the coarse nodes are: where neighbours have more or less than that they
+/// meet half-way, as far as the nodes between them go.
 class Owners {
  public:
-  /// `means`: of the nodes of this rank's cells. Collective.
+  /// `means`: of the nodes of this rank's cells, all those about its nodes among them: so it has each new node that is the mean of one of its own. Collective.
   Owners(const Ranks& ranks, const Rows& means, const std::vector<int>& first) : first_(first) {
     std::map<int, std::vector<int>> between;  // by the other rank: of nodes with their least number here that number, of the others nothing
     int halves = 0;                           // of nodes: those between ranks are half here
@@ -86,12 +88,15 @@ class Owners {
       std::vector<int>& least = between[low == ranks.own() ? high : low];
       if (low == ranks.own()) least.push_back(of.front());
     }
-    const std::vector<int> share = ranks.gather(halves);
+    const std::vector<int> shares = ranks.gather(halves), neighbours = ranks.gather(static_cast<int>(between.size()));
+    const double all = std::accumulate(shares.begin(), shares.end(), 0.0);
+    const auto surplus = [&](int rank) { return shares[rank] - all * (first[rank + 1] - first[rank]) / first.back(); };
     std::vector<int> told;
     for (auto& [other, least] : between) {
       if (least.empty()) continue;
-      const auto spare = (share[other] - share[ranks.own()]) / (4 * std::ssize(between));  // what this rank would take more than half
-      const auto taken = std::clamp<std::ptrdiff_t>(std::ssize(least) / 2 + spare, 0, std::ssize(least));
+      // What this rank takes more than half; a node that changes sides changes the difference by four halves.
+      const double more = (surplus(other) - surplus(ranks.own())) / (4 * std::max(neighbours[other], neighbours[ranks.own()]));
+      const auto taken = std::clamp<std::ptrdiff_t>(std::lround(std::ssize(least) / 2.0 + more), 0, std::ssize(least));
       std::ranges::sort(least);
       told.insert(told.end(), {ranks.own(), other, taken < std::ssize(least) ? least[taken] : first[ranks.own() + 1]});
     }

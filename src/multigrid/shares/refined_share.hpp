@@ -17,7 +17,7 @@ using PrescribedBits = std::unordered_map<int, int>;
 PrescribedBits prescribed_bits(const std::vector<int>& rows, int dimension);
 
 /// One rank's cells about its own nodes. Nodes of all ranks are numbered so that those of a rank follow one another. A node of a finer mesh is known by the nodes
-/// whose mean it is. It belongs to the rank of the one with the least number or with the greatest, so that ranks have as many nodes. The rank that owns a node has all
+/// whose mean it is. It belongs to the rank of the one with the least number or with the greatest, by a bound for each pair of ranks: so their shares stay alike. The rank that owns a node has all
 /// cells about it.
 class RefinedShare {
  public:

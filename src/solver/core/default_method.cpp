@@ -18,8 +18,8 @@ namespace {
 
 /// Below so many unknowns nothing takes long enough to be worth an estimate.
 constexpr int kLarge = 8000;
-/// Multigrid is taken where it is kClearly times as fast as factors, or kFactorIsKept times where all steps of a history use one factor.
-constexpr double kClearly = 1.1, kFactorIsKept = 10;
+/// Multigrid is taken where it is kFaster times as fast as factors, or kFactorIsKept times where all steps of a history use one factor.
+constexpr double kFaster = 1.1, kFactorIsKept = 10;
 constexpr double kOpening = 0.15;  ///< seconds that the library of multigrid takes to open
 
 bool multigrid_is_possible(const problem::Problem& problem) {
@@ -27,7 +27,7 @@ bool multigrid_is_possible(const problem::Problem& problem) {
   return problem.unknowns() >= kLarge && problem.subdomains.empty() && solid && multigrid::available() && tells_springs(problem);
 }
 
-bool multigrid_is_faster(const problem::Problem& problem, double times = kClearly) {
+bool multigrid_is_faster(const problem::Problem& problem, double times = kFaster) {
   if (!multigrid_is_possible(problem)) return false;
   const Expected seconds = expected(problem);
   return seconds.factors > times * seconds.multigrid;

@@ -15,7 +15,8 @@ enum class DefaultMethod { linear, pdas, held, newton, multigrid };
 /// all along: a dense factor takes the cube of their number then, sparse ones of a thin body far less.
 DefaultMethod default_method(const problem::Problem& problem);
 
-/// Seconds on one core that solid bodies are expected to take, to a factor of two; iterations of multigrid few. There must be a body.
+/// Seconds on one core that solid bodies are expected to take, to a factor of two; with few iterations of multigrid, and the time in which its library is opened.
+/// There must be a body.
 struct Expected {
   double factors, multigrid;
 };
