@@ -47,13 +47,13 @@ for name, case in pairs(cases) do
 end
 
 -- Where it is worth a word: on how many rows, how much work and memory. The prediction is that of the orderings, alike on every machine but for METIS's version.
-local n <const> = 16
+local n <const> = 15
 local cube <const> = dotyk.body{ mesh = dotyk.mesh.box{ from = { 0, 0, 0 }, to = { 1, 1, 1 }, cells = { n, n, n } }, material = dotyk.material{ E = 210, nu = 0.3 } }
 cube:part"bottom":fix()
 local pressed <const> = dotyk.scene{ cube }
 pressed:contact{ cube:part"top", rigid = dotyk.rigid.gap{ normal = { 0, 0, 1 }, gap = function(x, y) return (x - 0.5)^2 + (y - 0.5)^2 - 0.02 end } }
 local rows <const>, gigaflop <const>, megabytes <const> = pressed:plan():match "first on the (%d+) rows that overlap, some (%d+) Gflop, %d+ s on a core, and (%d+) MB"
-assert(rows == "21" and tonumber(gigaflop) >= 2 and tonumber(gigaflop) <= 10 and tonumber(megabytes) >= 30 and tonumber(megabytes) <= 120, pressed:plan())
+assert(rows == "16" and tonumber(gigaflop) >= 2 and tonumber(gigaflop) <= 10 and tonumber(megabytes) >= 30 and tonumber(megabytes) <= 120, pressed:plan())
 local solved <const> = dotyk.solve(pressed)
 assert(solved.converged and solved.rows == (n + 1)^2)
 
@@ -79,7 +79,7 @@ local under <const> = dotyk.scene{ slab }
 local stop <const> = under:contact{ slab:part"top", rigid = dotyk.rigid.gap{ normal = { 0, 0, 1 }, gap = function() return 0.005 end } }
 local said <const> = under:plan()
 if said:find("multigrid on all", 1, true) then
-  assert(said:find("some %d+ s on a core, where factors would take some %d+ s"), said)
+  assert(said:find("some [%d.]+ s on a core, where factors would take some [%d.]+ s"), said)
   local s <const> = dotyk.solve(under)
   assert(s.converged and s.method == "multigrid" and s.ordering:find("geometric multigrid", 1, true), s.ordering)
   -- What the stop bears and what the bottom bears carry the load of 27.

@@ -55,6 +55,8 @@ std::string expected(const problem::Problem& problem) {
   return out;
 }
 
+double tenths(double seconds) { return std::ceil(10 * seconds) / 10; }
+
 /// The method that solves it where none is named, and why.
 std::string method(const problem::Problem& problem, bool any_free) {
   if (const solver::TurnedNodes nodes(problem); !nodes.none())
@@ -69,7 +71,7 @@ std::string method(const problem::Problem& problem, bool any_free) {
     case solver::DefaultMethod::multigrid: {
       const solver::Expected seconds = solver::expected(problem);
       return text("multigrid on all ", problem.unknowns(), " unknowns: some ",
-                  std::ceil(seconds.multigrid), " s on a core, where factors would take some ", std::ceil(seconds.factors), " s");
+                  tenths(seconds.multigrid), " s on a core, where factors would take some ", tenths(seconds.factors), " s");
     }
     case solver::DefaultMethod::pdas: break;
   }
