@@ -34,7 +34,7 @@ struct CellPoint {
 };
 
 int cell_points(const mesh::Mesh& mesh);
-/// Cell by cell, point by point.
+/// Visits all points of the load rule: the cells in their order, and in each cell its points in their order.
 void for_each_cell_point(const mesh::Mesh& mesh, const std::function<void(const CellPoint&)>& visit);
 
 /// Components at a quadrature point of a cell.

@@ -24,7 +24,7 @@ struct VisitedCells {
 };
 /// What they are visited for: see script/visits.hpp.
 enum class VisitFor : int { estimate, point, write };
-/// What a process makes of them, to tell rank 0. `said`: by rank 0.
+/// Computes from these cells what this process tells rank 0. `said`: what rank 0 has told all processes.
 using VisitCells = Lists (*)(const VisitedCells& at, const Lists& said);
 
 /// What a process makes of a share.

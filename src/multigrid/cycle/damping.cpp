@@ -25,14 +25,13 @@ NodeBlock weighted_diagonal(const HalfMatrix& A, int node, const std::vector<int
   return D;
 }
 
-/// The matrix G⁻¹ A_between G⁻ᵀ, where W D W = G Gᵀ, on the nodes of this rank that are coupled to others.
+/// The matrix G⁻¹ A_between G⁻ᵀ, where W D W = G Gᵀ, on the nodes of this rank that are coupled to others. `weighted`: W D W of these nodes.
 class Between {
  public:
-  Between(HalfMatrix& A, const std::vector<int>& solved) : A_(A), all_(static_cast<std::size_t>(A.rows()), 0.0), product_(all_) {
-    for (const int node : A.border()) {
-      const NodeBlock D = weighted_diagonal(A, node, solved);
-      Eigen::LLT<NodeBlock> factor(D);
-      if (factor.info() != Eigen::Success) factor.compute((A.block() * D.diagonal().cwiseAbs()).asDiagonal());  // as in invert()
+  Between(HalfMatrix& A, const std::vector<NodeBlock>& weighted) : A_(A), all_(static_cast<std::size_t>(A.rows()), 0.0), product_(all_) {
+    for (const NodeBlock& block : weighted) {
+      Eigen::LLT<NodeBlock> factor(block);
+      if (factor.info() != Eigen::Success) factor.compute((A.block() * block.diagonal().cwiseAbs()).asDiagonal());  // as in invert()
       factors_.push_back(std::move(factor));
     }
   }
@@ -64,13 +63,14 @@ class Between {
   std::vector<double> all_, product_;           // by own rows
 };
 
-/// An eigenvalue of a symmetric operator is within `distance` of `value`.
+/// An approximate eigenvalue of a symmetric matrix. The matrix has an eigenvalue no further than `distance` from `value`.
 struct Ritz {
   double value, distance;
 };
 
-/// The greatest eigenvalue of Lanczos's tridiagonal matrix; its distance to one of the operator is at most β |s|, where β is the norm of the vector that the last step
-/// left and s the last entry of the eigenvector (Parlett, The Symmetric Eigenvalue Problem, 1998, §13.2).
+/// The greatest Ritz value of Lanczos's method: the greatest eigenvalue of its tridiagonal matrix, with the entries `diagonal` and, next to it, `beside`. The last
+/// number of `beside` is the norm β of the vector that the last step left. The distance is β |s|, where s is the last entry of the tridiagonal matrix's
+/// eigenvector (Parlett, The Symmetric Eigenvalue Problem, 1998, §13.2).
 Ritz greatest_ritz(const std::vector<double>& diagonal, const std::vector<double>& beside) {
   const auto count = static_cast<Eigen::Index>(diagonal.size());
   Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
@@ -78,12 +78,12 @@ Ritz greatest_ritz(const std::vector<double>& diagonal, const std::vector<double
   return {solver.eigenvalues()[count - 1], beside.back() * std::abs(solver.eigenvectors()(count - 1, count - 1))};
 }
 
-/// The eigenvalue c, a little too large. Collective.
-double greatest_coupling(HalfMatrix& A, const std::vector<int>& solved) {
+/// The greatest eigenvalue c, estimated from above. Collective.
+double greatest_coupling(HalfMatrix& A, const std::vector<NodeBlock>& weighted) {
   constexpr int kMostSteps = 60;  // of Lanczos, from numbers at random; 8 to 25 suffice for all that was tried
   constexpr double kNear = 0.03, kAbove = 0.01;  // relative; a Ritz value comes from below
   const Ranks& ranks = A.ranks();
-  Between between(A, solved);
+  Between between(A, weighted);
   const auto dot = [&](const std::vector<double>& a, const std::vector<double>& b) { return ranks.sum(std::inner_product(a.begin(), a.end(), b.begin(), 0.0)); };
   const auto add = [](std::vector<double>& to, double factor, const std::vector<double>& v) {
     for (std::size_t k = 0; k < to.size(); ++k) to[k] += factor * v[k];
@@ -93,7 +93,7 @@ double greatest_coupling(HalfMatrix& A, const std::vector<int>& solved) {
     for (double& number : v) number /= size > 0 ? size : 1;
     return size;
   };
-  std::minstd_rand numbers(1 + static_cast<unsigned>(ranks.own()));  // the vector sought changes its sign between ranks: they begin differently
+  std::minstd_rand numbers(1 + static_cast<unsigned>(ranks.own()));  // the same numbers on all ranks would be nearly orthogonal to the eigenvector, which changes its sign from rank to rank
   std::vector<double> v(between.count()), before(v.size()), diagonal, beside;
   for (double& number : v) number = std::uniform_real_distribution<>(-1, 1)(numbers);
   normalise(v);
@@ -116,8 +116,9 @@ double greatest_coupling(HalfMatrix& A, const std::vector<int>& solved) {
 std::vector<NodeBlock> damped_blocks(HalfMatrix& A, const std::vector<int>& solved) {
   std::vector<NodeBlock> blocks;
   if (A.ranks().alone()) return blocks;
-  const double c = std::max(1.0, greatest_coupling(A, solved));
-  for (const int node : A.border()) blocks.emplace_back((diagonal(A, node) + c * weighted_diagonal(A, node, solved)) / 2);
+  for (const int node : A.border()) blocks.push_back(weighted_diagonal(A, node, solved));
+  const double c = std::max(1.0, greatest_coupling(A, blocks));
+  for (std::size_t k = 0; k < blocks.size(); ++k) blocks[k] = (diagonal(A, A.border()[k]) + c * blocks[k]) / 2;
   return blocks;
 }
 

@@ -93,7 +93,7 @@ HalfMatrix Galerkin::pattern(const HalfMatrix& fine, Mat interpolation) const {
     if (mine(block)) {
       own[block - first_own_] = row;
     } else if (!row.empty()) {
-      std::vector<int>& to = out[rank_of(block)];
+      std::vector<int>& to = out[rank_with(firsts_, block)];
       to.push_back(static_cast<int>(row.size())), to.push_back(block), to.insert(to.end(), row.begin(), row.end());
     }
   }
@@ -110,8 +110,6 @@ HalfMatrix Galerkin::pattern(const HalfMatrix& fine, Mat interpolation) const {
   for (int i = 0; i < C.rows(); ++i) C.diagonal(i) = 1;
   return C;
 }
-
-int Galerkin::rank_of(int block) const { return static_cast<int>(std::ranges::upper_bound(firsts_, block) - firsts_.begin()) - 1; }
 
 void Galerkin::find_multiples(const ReachedRows& P) {
   multiples_.assign(static_cast<std::size_t>(fine_nodes_), 0);
@@ -260,7 +258,7 @@ std::vector<char> Galerkin::compute(const HalfMatrix& fine, Mat interpolation, H
       put_block(b, coarse);
       std::fill_n(computed.begin() + b * size_ - coarse.first_row(), size_, char(1));
     } else {
-      append_block(b, rank_of(b), out);
+      append_block(b, rank_with(firsts_, b), out);
     }
     sum_.clear();
   }

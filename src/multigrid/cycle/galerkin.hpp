@@ -52,7 +52,6 @@ class Galerkin {
   void find_multiples(const ReachedRows& P);
   void put_block(int block, HalfMatrix& C);
   void append_block(int block, int rank, Outgoing& out);
-  int rank_of(int block) const;
   bool mine(int block) const { return block >= first_own_ && block < first_own_ + own_blocks_; }
   void add(const Outgoing& in, HalfMatrix& C) const;
   /// The rows of P of the fine nodes that are reached.

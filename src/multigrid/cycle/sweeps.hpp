@@ -48,13 +48,16 @@ class Sweeps {
 
 using NodeBlock = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, kMostRows, kMostRows>;
 
-/// What such sweeps divide by at the nodes that are coupled to other ranks, in the order of A.border(). A = A_local + A_between, where A_between couples nodes of
-/// different ranks, and D has the blocks of the diagonal. The matrix M of a sweep that divides by blocks E satisfies M + Mᵀ − A = 2E − D − A_between; E is D at all
-/// other nodes. If this is positive definite, the sweep converges and a V-cycle of it is positive definite (Baker, Falgout, Kolev and Yang, SIAM J. Sci.
-/// Comput. 33 (2011), §4). The second sweep of the border meets the same condition on these nodes alone. So E = (D + max(1, c) W D W)/2, where c is the
-/// greatest eigenvalue of A_between v = c W D W v, as Lanczos estimates it. W is diagonal: √8 at rows that are `solved` exactly as well (counted from the
-/// rank's first, ascending), 1 at all others. Few solved rows would else make c large, and the sweep of all others slow. Without them c is below 1 if pieces
-/// are large, and up to 3.3 if most nodes of a rank are coupled to others. Collective.
+/// The damped diagonal blocks E of the nodes that are coupled to other ranks, in the order of A.border(). A sweep solves with E in place of the diagonal block D there.
+///
+/// Let A = A_local + A_between, where A_between couples nodes of different ranks. The matrix M of a sweep satisfies M + Mᵀ − A = 2E − D − A_between, with E = D at
+/// all other nodes. If this matrix is positive definite, the sweep converges, and a V-cycle of such sweeps is positive definite (Baker, Falgout, Kolev and Yang,
+/// SIAM J. Sci. Comput. 33 (2011), §4). The second sweep of the border needs the same condition at the nodes of the border only.
+///
+/// We take E = (D + max(1, c) W D W)/2, where c is the greatest eigenvalue of A_between v = c W D W v, estimated by Lanczos. W is diagonal: √8 at the rows in
+/// `solved`, which are also solved exactly, and 1 at all others. Without this weight a few such rows would make c large and slow down the sweep at all other
+/// nodes. Without solved rows c is below 1 if pieces are large, and up to 3.3 if most nodes of a rank are coupled to others.
+/// `solved`: rows counted from the rank's first, ascending. Collective.
 std::vector<NodeBlock> damped_blocks(HalfMatrix& A, const std::vector<int>& solved);
 
 }  // namespace dotyk::multigrid

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 
@@ -109,5 +110,7 @@ void Ranks::abort(const std::string& reason) const {
   MPI_Abort(comm_, 1);
   _exit(1);
 }
+
+int rank_with(const std::vector<int>& first, int number) { return static_cast<int>(std::ranges::upper_bound(first, number) - first.begin()) - 1; }
 
 }  // namespace dotyk::multigrid

@@ -59,4 +59,7 @@ class Ranks {
   int own_ = 0, count_ = 1;
 };
 
+/// The rank that owns a number. `first`: the first number of each rank, ascending; the count of all may follow.
+int rank_with(const std::vector<int>& first, int number);
+
 }  // namespace dotyk::multigrid

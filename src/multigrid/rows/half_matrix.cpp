@@ -84,7 +84,7 @@ HalfMatrix::HalfMatrix(const Ranks& ranks, HalfRows rows)
   if (ranks.alone()) return;
   const std::vector<int> firsts = ranks.gather(rows_.first);
   std::vector<std::vector<int>> needed(static_cast<std::size_t>(ranks.count()));
-  for (const int node : others_) needed[std::ranges::upper_bound(firsts, node) - firsts.begin() - 1].push_back(node);
+  for (const int node : others_) needed[rank_with(firsts, node)].push_back(node);
   for (const auto& of_rank : needed) other_counts_.push_back(static_cast<int>(of_rank.size()) * block());
   asked_ = ranks.exchange(needed);
   for (auto& of_rank : asked_)

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/buckets.hpp"
+#include "multigrid/processes/ranks.hpp"
 
 namespace dotyk::multigrid {
 
@@ -240,8 +241,6 @@ void Numbering::put(int rank, const std::vector<double>& part, algebra::Vector& 
   });
 }
 
-int Numbering::rank_of(int row) const {
-  return static_cast<int>(std::upper_bound(first_[0].begin(), first_[0].end(), row) - first_[0].begin()) - 1;
-}
+int Numbering::rank_of(int row) const { return rank_with(first_[0], row); }
 
 }  // namespace dotyk::multigrid

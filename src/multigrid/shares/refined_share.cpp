@@ -68,18 +68,17 @@ Rows by_number(const Buckets& means, const std::vector<int>& number) {
   return all;
 }
 
-/// The rank that owns a number; `first`: as in RefinedShare.
-int rank_with(const std::vector<int>& first, int number) { return static_cast<int>(std::ranges::upper_bound(first, number) - first.begin()) - 1; }
-
-/// Which rank gets a new node that is the mean of nodes of two: the one with the least number where that is below a bound, else the one with the greatest. So
-/// most borders are cut once, and stay short. The bounds keep the shares as those of the coarse nodes are: where neighbours have more or less than that they
-/// meet half-way, as far as the nodes between them go.
+/// Decides which rank owns a new node whose parents, the nodes whose mean it is, belong to different ranks. Let a be the rank of the parent with the least number, and b
+/// that of the parent with the greatest. Then a owns the node if the least number is below a bound, and b owns it if not. There is one bound for each pair
+/// (a, b), so that a border most often changes sides at one place only and stays short. Each bound is chosen so that the ranks have nodes in the same ratio as
+/// before the refinement, as far as the nodes between a and b allow.
 class Owners {
  public:
-  /// `means`: of the nodes of this rank's cells, all those about its nodes among them: so it has each new node that is the mean of one of its own. Collective.
+  /// `means`: for each node of this rank's refined cells, the numbers of its parents. The rank has all cells about its nodes; so every new node with a parent on this
+  /// rank is among them. Collective.
   Owners(const Ranks& ranks, const Rows& means, const std::vector<int>& first) : first_(first) {
-    std::map<int, std::vector<int>> between;  // by the other rank: of nodes with their least number here that number, of the others nothing
-    int halves = 0;                           // of nodes: those between ranks are half here
+    std::map<int, std::vector<int>> between;  // for each other rank: the least numbers of the nodes between, where this rank is a; empty where it is b
+    int halves = 0;                           // each own node counts 2, each node between this rank and another counts 1
     for (std::size_t i = 0; i + 1 < means.starts.size(); ++i) {
       const auto of = columns_of(means, i);
       const int low = rank_with(first, of.front()), high = rank_with(first, of.back());
@@ -94,7 +93,7 @@ class Owners {
     std::vector<int> told;
     for (auto& [other, least] : between) {
       if (least.empty()) continue;
-      // What this rank takes more than half; a node that changes sides changes the difference by four halves.
+      // How many nodes more than half of them this rank takes. One node that changes sides changes the difference of the two counts by four.
       const double more = (surplus(other) - surplus(ranks.own())) / (4 * std::max(neighbours[other], neighbours[ranks.own()]));
       const auto taken = std::clamp<std::ptrdiff_t>(std::lround(std::ssize(least) / 2.0 + more), 0, std::ssize(least));
       std::ranges::sort(least);
@@ -104,7 +103,7 @@ class Owners {
       for (std::size_t k = 0; k < in.size(); k += 3) bound_[{in[k], in[k + 1]}] = in[k + 2];
   }
 
-  /// One of the nodes whose mean it is: its rank has the new one.
+  /// The parent whose rank owns the new node. `of`: the numbers of its parents, ascending.
   int decides(std::span<const int> of) const {
     const int low = rank_with(first_, of.front()), high = rank_with(first_, of.back());
     return low == high || of.front() < bound_.at({low, high}) ? of.front() : of.back();

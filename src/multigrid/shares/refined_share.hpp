@@ -16,17 +16,17 @@ using PrescribedBits = std::unordered_map<int, int>;
 /// From rows, node × dimension + component.
 PrescribedBits prescribed_bits(const std::vector<int>& rows, int dimension);
 
-/// One rank's cells about its own nodes. Nodes of all ranks are numbered so that those of a rank follow one another. A node of a finer mesh is known by the nodes
-/// whose mean it is. It belongs to the rank of the one with the least number or with the greatest, by a bound for each pair of ranks: so their shares stay alike. The rank that owns a node has all
-/// cells about it.
+/// One rank's cells about its own nodes. Nodes of all ranks are numbered so that those of a rank follow one another. A node of a finer mesh is known by its
+/// parents, the nodes whose mean it is. The rank of the parent with the least number owns it, or the rank of the one with the greatest. The rank that owns a
+/// node has all cells about it.
 class RefinedShare {
  public:
-  /// `dimension`: components of a node; `number`: of each node of the cells; `first`: the first node of each rank, then the number of all nodes; `layers`: how many layers
-  /// of cells about own nodes are given and kept.
+  /// `dimension`: how many components a node has. `number`: the number of each node of the cells. `first`: the first node of each rank, then how many nodes there
+  /// are in all. `layers`: how many layers of cells about own nodes are given and kept.
   RefinedShare(const Ranks& ranks, std::unique_ptr<algebra::Refinable> cells, int dimension, std::vector<int> number, std::vector<int> first, int layers = 1);
 
-  /// Refines once, and keeps the cells about own nodes. The numbers do not depend on how many layers there are. `asked`: of any nodes of the finer mesh, the numbers of the nodes whose mean each is. Returns the numbers
-  /// of these nodes. Collective.
+  /// Refines once, and keeps the cells about own nodes. The numbers of nodes do not depend on how many layers there are. `asked`: nodes of the finer mesh, each by
+  /// the numbers of its parents, ascending. Returns the numbers of these nodes. Collective.
   std::vector<int> refine(const Rows& asked);
 
   /// The first node of each rank, and the number of all, by level: the finest mesh first, the constructor's last.

@@ -55,6 +55,7 @@ std::string expected(const problem::Problem& problem) {
   return out;
 }
 
+/// Rounded up to a tenth.
 double tenths(double seconds) { return std::ceil(10 * seconds) / 10; }
 
 /// The method that solves it where none is named, and why.
