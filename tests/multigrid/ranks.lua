@@ -22,7 +22,7 @@ local function told(code, options)
   local out <const> = assert(io.open(file, "w"))
   out:write(scene, code)
   out:close()
-  local pipe <const> = io.popen(("OPENBLAS_NUM_THREADS=1 timeout 60 '%s' %s '%s' 2>&1; echo status $?"):format(program, options or "", file))
+  local pipe <const> = io.popen(("OPENBLAS_NUM_THREADS=1 timeout 500 '%s' %s '%s' 2>&1; echo status $?"):format(program, options or "", file))
   local text <const> = pipe:read "a"
   pipe:close()
   os.remove(file)

@@ -30,7 +30,7 @@ while read -r number name; do
   [[ $name == *"$chosen"* ]] || continue
   mkdir "in$number" && cd "in$number" || exit 1
   start=$EPOCHREALTIME
-  timeout 30 "$dotyk" "../$number.lua" >../output 2>&1 </dev/null
+  timeout 120 "$dotyk" "../$number.lua" >../output 2>&1 </dev/null
   status=$?
   cd ..
   seconds=$(((${EPOCHREALTIME/./} - ${start/./}) / 1000))

@@ -38,16 +38,16 @@ solve='local b = dotyk.body{ mesh = dotyk.mesh.rectangle{ from = {0,0}, to = {1,
   print(dotyk.solve(dotyk.scene{ b }).converged)'
 line='^(true|dotyk: (-e:[0-9]: solve: [^:]* needs [0-9.]+ GB of memory, .*|--memory [0-9]+M is less than dotyk needs to start \(about [0-9]+M\)|(-e:[0-9]: )?.*(not enough|out of) memory))$'
 for megabytes in 300 250 220 200 190 180 160 140 130 120 110 100 90 50; do
-  got=$(timeout -s KILL 20 "$dotyk" --memory ${megabytes}M -e "$solve" 2>&1)
+  got=$(timeout -s KILL 120 "$dotyk" --memory ${megabytes}M -e "$solve" 2>&1)
   [[ $? != 137 && $got =~ $line ]] || fail "--memory ${megabytes}M: $got"
   ((megabytes < 130)) && continue # the system itself may not get the program loaded
-  got=$(ulimit -v $((megabytes * 1000)); timeout -s KILL 20 "$dotyk" -e "$solve" 2>&1)
+  got=$(ulimit -v $((megabytes * 1000)); timeout -s KILL 120 "$dotyk" -e "$solve" 2>&1)
   [[ $? != 137 && $got =~ $line ]] || fail "ulimit -v, $megabytes MB: $got"
 done
 # Subdomains are shared out to threads, each of which wants a buffer.
 cut="${solve/dotyk.solve(/dotyk.solver.feti{ subdomains = 4 \}:solve(}"
 for megabytes in 500 420 400 380 360 340 320 300 280; do
-  got=$(timeout -s KILL 30 "$dotyk" --memory ${megabytes}M -e "$cut" 2>&1)
+  got=$(timeout -s KILL 120 "$dotyk" --memory ${megabytes}M -e "$cut" 2>&1)
   [[ $? != 137 && $got =~ $line ]] || fail "subdomains with --memory ${megabytes}M: $got"
 done
 # Mesa and VTK crash where their buffers do not fit.

@@ -128,9 +128,9 @@ wait
 # A picture is shown where the terminal can: by kitty's protocol the file's very bytes.
 picture=$folder/picture.png
 printf 'dotyk.chart{ file = "%s", series = { { x = { 0, 1 }, y = { 0, 1 } } } }\n' "$picture" |
-  DOTYK_PICTURES=kitty timeout 60 "$dotyk" | tr -d '\033\n' | sed 's/_G[^;]*;//g; s/\\//g; s/".*//' | base64 -d >"$folder/shown" 2>/dev/null
+  DOTYK_PICTURES=kitty timeout 120 "$dotyk" | tr -d '\033\n' | sed 's/_G[^;]*;//g; s/\\//g; s/".*//' | base64 -d >"$folder/shown" 2>/dev/null
 cmp "$folder/shown" "$picture" || fail "a picture in the terminal"
-told=$(printf 'dotyk.chart{ file = "%s", series = { { x = { 0, 1 }, y = { 0, 1 } } } }\n' "$picture" "$picture" | DOTYK_PICTURES=kity timeout 60 "$dotyk" 2>&1 >/dev/null)
+told=$(printf 'dotyk.chart{ file = "%s", series = { { x = { 0, 1 }, y = { 0, 1 } } } }\n' "$picture" "$picture" | DOTYK_PICTURES=kity timeout 120 "$dotyk" 2>&1 >/dev/null)
 [[ $told == "dotyk: DOTYK_PICTURES is 'kity', which is left out; it can be kitty, iterm, sixel, none" ]] || fail "a protocol that is none: $told"
 mkdir "$folder/few"
 ln -s "$(command -v sh)" "$folder/few/sh"

@@ -1,8 +1,12 @@
 #include "multigrid/cycle/cycle.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
+
+#include "multigrid/rows/all_rows.hpp"
 
 namespace dotyk::multigrid {
 
@@ -23,28 +27,35 @@ double norm(Vec v) {
   return size;
 }
 
+/// Of this rank's numbers.
 double dot(Vec a, Vec b) {
-  PetscScalar sum = 0;
-  check(VecDot(a, b, &sum));
-  return sum;
+  PetscInt count = 0;
+  check(VecGetLocalSize(a, &count));
+  const ReadNumbers of_a(a), of_b(b);
+  return Eigen::VectorXd::Map(of_a, count).dot(Eigen::VectorXd::Map(of_b, count));
 }
 
 }  // namespace
 
 Cycle::Cycle(const Ranks& ranks, Piece piece) : ranks_(ranks), hierarchy_(ranks, std::move(piece)) {
-  const int twice = first_swept_twice();
-  for (int l = 0; l + 1 < levels(); ++l) {
+  const int twice = hierarchy_.first_swept_twice();
+  for (int l = 0; l + 1 < hierarchy_.levels(); ++l) {
     Level& level = levels_.emplace_back(Level{Sweeps(hierarchy_.matrix(l)), l >= twice ? 2 : 1, {}, {}, {}, {}});
     check(MatCreateVecs(hierarchy_.interpolation(l), level.coarse.put(), level.left.put()));
     check(VecDuplicate(level.coarse, level.correction.put()));
     check(VecDuplicate(level.left, level.change.put()));
   }
-  check(KSPCreate(ranks_.comm(), coarsest_.put()));
-  constexpr double kSmall = 2000;  // for PETSc's own factor, which takes singular matrices, and empty ones
-  const HalfMatrix& coarsest = hierarchy_.matrix(levels() - 1);
-  last_ = copied(ranks_, coarsest.full(), coarsest.rows());
-  if (ranks_.sum(coarsest.rows()) <= kSmall) factor_on_each(coarsest_, last_, MAT_SHIFT_POSITIVE_DEFINITE, MATSOLVERPETSC);
-  else factor_on_each(coarsest_, last_, MAT_SHIFT_NONE, MATSOLVERCHOLMOD);
+  const HalfMatrix& last = hierarchy_.matrix(hierarchy_.levels() - 1);
+  if (ranks_.alone()) {
+    constexpr double kSmall = 2000;  // for PETSc's own factor, which takes singular matrices, and empty ones
+    check(KSPCreate(ranks_.comm(), coarsest_.put()));
+    last_ = copied(ranks_, last.full(), last.rows());
+    if (last.rows() <= kSmall) factor_on_each(coarsest_, last_, MAT_SHIFT_POSITIVE_DEFINITE, MATSOLVERPETSC);
+    else factor_on_each(coarsest_, last_, MAT_SHIFT_NONE, MATSOLVERCHOLMOD);
+  } else {
+    counts_ = ranks_.gather(last.rows());
+    whole_ = std::make_unique<Cycle>(Ranks(MPI_COMM_SELF), hierarchy_.last_for_all());
+  }
   const int own = hierarchy_.matrix(0).rows();
   check(VecCreate(ranks_.comm(), x_.put()));
   check(VecSetSizes(x_, own, PETSC_DETERMINE));
@@ -52,8 +63,17 @@ Cycle::Cycle(const Ranks& ranks, Piece piece) : ranks_(ranks), hierarchy_(ranks,
   for (OwnedVec* v : {&left_, &z_, &p_, &Ap_}) check(VecDuplicate(x_, v->put()));
 }
 
+void Cycle::solve_last(Vec b, Vec x) {
+  if (!whole_) return check(KSPSolve(coarsest_, b, x));
+  ranks_.gather(ReadNumbers(b), counts_, Numbers(whole_->left_));
+  whole_->descend(0, whole_->left_, whole_->z_);
+  const ReadNumbers all(whole_->z_);
+  const int before = std::reduce(counts_.begin(), counts_.begin() + ranks_.own());
+  std::copy_n(all + before, counts_[ranks_.own()], static_cast<double*>(Numbers(x)));
+}
+
 void Cycle::descend(std::size_t l, Vec b, Vec x) {
-  if (l == levels_.size()) return check(KSPSolve(coarsest_, b, x));
+  if (l == levels_.size()) return solve_last(b, x);
   Level& level = levels_[l];
   const Mat P = hierarchy_.interpolation(static_cast<int>(l));
   const bool solved = l == 0 && shared_.any();
@@ -77,32 +97,32 @@ void Cycle::descend(std::size_t l, Vec b, Vec x) {
   for (int k = 0; k < level.count; ++k) level.sweeps.backward(ReadNumbers(b), Numbers(x));
 }
 
-/// A second sweep costs little where a level has few unknowns. Measured with PETSc's sweeps: on the second coarser mesh and below (1/64 of the unknowns) it
-/// saves a tenth of the iterations with friction, 28 instead of 31 on a cube of 64³ cells. Where aggregates follow the coarsest mesh, they converge more
-/// slowly than meshes, and a second sweep from that mesh on saves a fifth: 22 instead of 27 on 76³ cells, with aggregates below 19³.
-int Cycle::first_swept_twice() const { return hierarchy_.meshes() == 0 ? levels() : std::min(hierarchy_.meshes(), 2); }
-
-void Cycle::take_coarsest() {
-  HalfMatrix& coarsest = hierarchy_.matrix(levels() - 1);
+bool Cycle::take_last() {
+  HalfMatrix& last = hierarchy_.matrix(hierarchy_.levels() - 1);
+  if (whole_) return whole_->set(all_rows(ranks_, last.stored()));
   {
     const LocalRows rows(last_);
-    for (int row = 0; row < rows.count(); ++row) rows.for_each(row, [&](int column, double& number) { number = *coarsest.find(row, column); });
+    for (int row = 0; row < rows.count(); ++row) rows.for_each(row, [&](int column, double& number) { number = *last.find(row, column); });
   }
   tell_changed(last_);
+  return set_up(coarsest_);
 }
 
-bool Cycle::set(const Change& change) {
-  if (!hierarchy_.set(change)) return false;
+bool Cycle::take_levels(const std::vector<int>& shared) {
   double of_sweeps = 0;
   for (std::size_t l = 0; l < levels_.size(); ++l) {
-    l == 0 ? levels_[l].sweeps.set(change.shared) : levels_[l].sweeps.set();
+    l == 0 ? levels_[l].sweeps.set(shared) : levels_[l].sweeps.set();
     of_sweeps += levels_[l].sweeps.bytes();
   }
-  if (!ranks_.all(shared_.set(hierarchy_.matrix(0), change.shared))) return false;
-  take_coarsest();
-  if (!ranks_.all(set_up(coarsest_))) return false;
-  bytes_ = ranks_.sum(hierarchy_.bytes() + of_sweeps);
+  if (!ranks_.all(shared_.set(hierarchy_.matrix(0), shared))) return false;
+  if (!ranks_.all(take_last())) return false;
+  bytes_ = ranks_.sum(hierarchy_.bytes() + of_sweeps + (whole_ ? whole_->bytes_ : 0));
   return true;
+}
+
+bool Cycle::set(HalfRows rows) {
+  hierarchy_.set(std::move(rows));
+  return take_levels({});
 }
 
 void Cycle::interpolate(const std::vector<double>& coarse, std::vector<double>& fine) {
@@ -113,16 +133,14 @@ void Cycle::interpolate(const std::vector<double>& coarse, std::vector<double>& 
   std::copy_n(of_left + 0, fine.size(), fine.begin());
 }
 
-bool Cycle::stopped(Monitor* monitor, Solution& solution) const {
-  int stop = 0;
+bool Cycle::wants_end(Monitor* monitor, Solution& solution) {
   try {
     if (monitor) monitor->check();
+    return false;
   } catch (...) {
     solution.thrown = std::current_exception();
-    stop = 1;
+    return true;
   }
-  if (!ranks_.alone()) MPI_Bcast(&stop, 1, MPI_INT, 0, ranks_.comm());
-  return stop != 0;
 }
 
 Cycle::Solution Cycle::solve(const std::vector<double>& b, double tolerance, double most, Monitor* monitor, std::vector<double>& x, std::vector<double>& left) {
@@ -133,12 +151,13 @@ Cycle::Solution Cycle::solve(const std::vector<double>& b, double tolerance, dou
   double residual = first, before = 1;
   while (residual > tolerance * first) {
     const int count = solution.iterations;
-    if (count >= kMostIterations || (count >= kTelling && foreseen(first, residual, count) - count > most) || stopped(monitor, solution)) break;
+    if (count >= kMostIterations || (count >= kTelling && foreseen(first, residual, count) - count > most)) break;
     descend(0, left_, z_);
-    const double product = dot(left_, z_);
+    const auto [product, ending] = ranks_.sum({dot(left_, z_), wants_end(monitor, solution) ? 1.0 : 0.0});
+    if (ending > 0) break;
     check(count == 0 ? VecCopy(z_, p_) : VecAYPX(p_, product / before, z_));
     hierarchy_.matrix(0).times(ReadNumbers(p_), Numbers(Ap_));
-    const double curvature = dot(p_, Ap_);
+    const double curvature = ranks_.sum(dot(p_, Ap_));
     if (!(product > 0 && curvature > 0)) break;  // not definite
     const double step = product / curvature;
     check(VecAXPY(x_, step, p_));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <exception>
+#include <memory>
 #include <vector>
 
 #include "base/monitor.hpp"
@@ -16,7 +17,7 @@ class Cycle {
  public:
   Cycle(const Ranks& ranks, Piece piece);
 
-  bool set(const Change& change);
+  bool set(const Change& change) { return hierarchy_.set(change) && take_levels(change.shared); }
   HalfRows take_coarser() { return hierarchy_.take_coarser(); }  ///< as in Hierarchy
   const OwnLoad& coarser_load() const { return hierarchy_.coarser_load(); }
   const AllOwnFunctions& functions() const { return hierarchy_.functions(); }
@@ -33,11 +34,11 @@ class Cycle {
   /// fine = P coarse, P the functions of the next coarser mesh. Of this rank's rows of both.
   void interpolate(const std::vector<double>& coarse, std::vector<double>& fine);
 
-  int levels() const { return hierarchy_.levels(); }
+  int levels() const { return hierarchy_.levels() + (whole_ ? whole_->levels() - 1 : 0); }
   double bytes() const { return bytes_; }  ///< of all ranks, after the last set()
 
  private:
-  /// All but the coarsest.
+  /// All but the last.
   struct Level {
     Sweeps sweeps;
     int count;  ///< of sweeps before the coarse correction, and after it
@@ -47,17 +48,22 @@ class Cycle {
 
   /// x = M⁻¹ b, M the V-cycle from this level on.
   void descend(std::size_t level, Vec b, Vec x);
-  int first_swept_twice() const;  ///< the level
-  void take_coarsest();           ///< numbers
-  /// Does rank 0's monitor want the end? All ranks learn it.
-  bool stopped(Monitor* monitor, Solution& solution) const;
+  void solve_last(Vec b, Vec x);
+  bool set(HalfRows rows);  ///< all numbers of the finest matrix
+  /// Numbers of all levels. False where they are seen not to be positive definite. `shared`: as in Change.
+  bool take_levels(const std::vector<int>& shared);
+  bool take_last();
+  static bool wants_end(Monitor* monitor, Solution& solution);
 
   const Ranks ranks_;
   Hierarchy hierarchy_;
   std::vector<Level> levels_;
   SharedRows shared_;
-  OwnedMat last_;  ///< the coarsest matrix, full rows
+  // The last level. On one rank it is the coarsest: full rows, and their factor. On several ranks the cycle goes on with all rows on each of them.
+  OwnedMat last_;
   OwnedKsp coarsest_;
+  std::unique_ptr<Cycle> whole_;
+  std::vector<int> counts_;  ///< rows of each rank
   OwnedVec x_, left_, z_, p_, Ap_;  ///< of conjugate gradients
   double bytes_ = 0;
 };

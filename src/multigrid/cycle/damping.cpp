@@ -84,27 +84,22 @@ double greatest_coupling(HalfMatrix& A, const std::vector<NodeBlock>& weighted) 
   constexpr double kNear = 0.03, kAbove = 0.01;  // relative; a Ritz value comes from below
   const Ranks& ranks = A.ranks();
   Between between(A, weighted);
-  const auto dot = [&](const std::vector<double>& a, const std::vector<double>& b) { return ranks.sum(std::inner_product(a.begin(), a.end(), b.begin(), 0.0)); };
-  const auto add = [](std::vector<double>& to, double factor, const std::vector<double>& v) {
-    for (std::size_t k = 0; k < to.size(); ++k) to[k] += factor * v[k];
-  };
-  const auto normalise = [&](std::vector<double>& v) {
-    const double size = std::sqrt(dot(v, v));
-    for (double& number : v) number /= size > 0 ? size : 1;
-    return size;
-  };
+  const auto dot = [](const std::vector<double>& a, const std::vector<double>& b) { return std::inner_product(a.begin(), a.end(), b.begin(), 0.0); };
   std::minstd_rand numbers(1 + static_cast<unsigned>(ranks.own()));  // the same numbers on all ranks would be nearly orthogonal to the eigenvector, which changes its sign from rank to rank
   std::vector<double> v(between.count()), before(v.size()), diagonal, beside;
   for (double& number : v) number = std::uniform_real_distribution<>(-1, 1)(numbers);
-  normalise(v);
+  double size = std::sqrt(ranks.sum(dot(v, v)));  // of v, which is divided by it in each step
   Ritz greatest{0, 0};
-  for (int k = 0; k < kMostSteps; ++k) {
+  for (int k = 0; k < kMostSteps && size > 0; ++k) {
+    for (double& number : v) number /= size;
     std::vector<double> w = between.times(v);
-    diagonal.push_back(dot(w, v));
-    add(w, -diagonal.back(), v);
-    if (k > 0) add(w, -beside.back(), before);
+    if (k > 0)
+      for (std::size_t i = 0; i < w.size(); ++i) w[i] -= size * before[i];
+    const auto [on_v, square] = ranks.sum({dot(w, v), dot(w, w)});
+    for (std::size_t i = 0; i < w.size(); ++i) w[i] -= on_v * v[i];
+    size = std::sqrt(std::max(0.0, square - on_v * on_v));  // Pythagoras
+    diagonal.push_back(on_v), beside.push_back(size);
     before = std::exchange(v, std::move(w));
-    beside.push_back(normalise(v));
     greatest = greatest_ritz(diagonal, beside);
     if (greatest.distance <= kNear * greatest.value) break;
   }

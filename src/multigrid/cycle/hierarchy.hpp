@@ -20,6 +20,10 @@ class Hierarchy {
 
   /// New numbers, and the coarse matrices for them. False where they are seen not to be positive definite.
   bool set(const Change& change);
+  /// The same where all numbers of the finest matrix are new.
+  void set(HalfRows rows);
+  /// The last level and those after it, the same for each rank: all rows.
+  Piece last_for_all() const;
 
   /// Of the matrix of the next coarser mesh this rank's rows, without Piece::first, where the piece asks for them; once.
   HalfRows take_coarser() { return std::move(coarser_); }
@@ -28,7 +32,8 @@ class Hierarchy {
   int levels() const { return static_cast<int>(matrices_.size()); }
   HalfMatrix& matrix(int level) { return *matrices_[level]; }             ///< from 0, the finest
   Mat interpolation(int level) const { return interpolations_[level]; }   ///< from `level` + 1 to `level`
-  int meshes() const { return static_cast<int>(piece_.own.size()) - 1; }  ///< coarser ones: of so many levels after the finest
+  /// The first level that is swept twice.
+  int first_swept_twice() const;
   double bytes() const;  ///< of this rank
 
  private:
@@ -46,6 +51,9 @@ class Hierarchy {
   void take_aggregates(OwnedMat of);
   /// Interpolations from coarse displacements to the unknowns, and coarse matrices of these.
   void take_unknowns(Mat S);
+  int meshes() const { return static_cast<int>(piece_.own.size()) - 1; }  ///< coarser ones
+  bool aggregates() const;     ///< do they follow the coarsest mesh?
+  int shared_meshes() const;   ///< how many of the coarser ones are shared out, the last of them for last_for_all(), too
   void multiply(int level);  ///< makes the product that gives the next level
   /// The numbers of coarse matrices that are to be computed.
   void fill_coarse();

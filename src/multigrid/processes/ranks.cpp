@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
+#include <iterator>
+#include <numeric>
 
 namespace dotyk::multigrid {
 
@@ -21,6 +23,11 @@ bool Ranks::all(bool own) const {
 
 double Ranks::sum(double own) const {
   if (!alone()) MPI_Allreduce(MPI_IN_PLACE, &own, 1, MPI_DOUBLE, MPI_SUM, comm_);
+  return own;
+}
+
+std::array<double, 2> Ranks::sum(std::array<double, 2> own) const {
+  if (!alone()) MPI_Allreduce(MPI_IN_PLACE, own.data(), 2, MPI_DOUBLE, MPI_SUM, comm_);
   return own;
 }
 
@@ -44,6 +51,21 @@ std::vector<int> Ranks::gather(int own) const {
 namespace {
 
 constexpr int kTag = 1, kExchange = 2;
+
+template <class Number>
+void gather_numbers(const Ranks& ranks, const Number* own, const std::vector<int>& counts, Number* all, MPI_Datatype type) {
+  std::vector<int> starts;
+  std::exclusive_scan(counts.begin(), counts.end(), std::back_inserter(starts), 0);
+  MPI_Allgatherv(own, counts[ranks.own()], type, all, counts.data(), starts.data(), type, ranks.comm());
+}
+
+template <class Number>
+std::vector<Number> gather_numbers(const Ranks& ranks, const std::vector<Number>& own, MPI_Datatype type) {
+  const std::vector<int> counts = ranks.gather(static_cast<int>(own.size()));
+  std::vector<Number> all(std::reduce(counts.begin(), counts.end(), std::size_t{0}));
+  gather_numbers(ranks, own.data(), counts, all.data(), type);
+  return all;
+}
 
 /// Between neighbours alone: few of many ranks.
 template <class Number>
@@ -83,6 +105,10 @@ void receive_numbers(MPI_Comm comm, int from, std::vector<Number>& numbers, MPI_
 }
 
 }  // namespace
+
+std::vector<int> Ranks::gather(const std::vector<int>& own) const { return gather_numbers(*this, own, MPI_INT); }
+std::vector<double> Ranks::gather(const std::vector<double>& own) const { return gather_numbers(*this, own, MPI_DOUBLE); }
+void Ranks::gather(const double* own, const std::vector<int>& counts, double* all) const { gather_numbers(*this, own, counts, all, MPI_DOUBLE); }
 
 std::vector<std::vector<int>> Ranks::exchange(const std::vector<std::vector<int>>& to) const { return exchange_numbers(*this, to, MPI_INT); }
 std::vector<std::vector<double>> Ranks::exchange(const std::vector<std::vector<double>>& to) const { return exchange_numbers(*this, to, MPI_DOUBLE); }
