@@ -106,7 +106,7 @@ bool near(const beam::Solution& a, const beam::Solution& b) {
 
 }  // namespace
 
-TEST_CASE("every pair of laws at two ends: in closed form, by several methods, or refused") {
+TEST_CASE("every pair of laws at two ends: in closed form, by several methods, or refused" * doctest::test_suite("large")) {
   int solved = 0, refused = 0, not_unique = 0;
   for (const SupportLaw& ld : kLaws)
     for (const SupportLaw& lr : kLaws)

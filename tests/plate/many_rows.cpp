@@ -72,7 +72,7 @@ int steps(const plate::Solution& s) {
 
 }  // namespace
 
-TEST_CASE("rows at every vertex: the solution of the whole system by LU, for every law of the edge") {
+TEST_CASE("rows at every vertex: the solution of the whole system by LU, for every law of the edge" * doctest::test_suite("large")) {
   for (const auto element : kElements)
     for (const Case& c : kCases) {
       CAPTURE(c.name);
@@ -102,7 +102,7 @@ TEST_CASE("units of length and force do not matter to the number of steps") {
   }
 }
 
-TEST_CASE("iterations hardly grow with the mesh; small plates are condensed, large ones not") {
+TEST_CASE("iterations hardly grow with the mesh; small plates are condensed, large ones not" * doctest::test_suite("large")) {
   for (const auto element : kElements) {
     CHECK(test::solved(plate_over(kCases[0], element, 8))->result().method == "pdas");
     for (const int cells : {32, 64}) {

@@ -59,7 +59,7 @@ TEST_CASE("begun on few rows or on all: the same solution") {
       }
 }
 
-TEST_CASE("iterations on all rows of one-sided edges do not grow with their number; edges that rub may cycle, and end") {
+TEST_CASE("iterations on all rows of one-sided edges do not grow with their number; edges that rub may cycle, and end" * doctest::test_suite("large")) {
   for (const plate::Element element : kElements)
     for (const bool round : {true, false})
       for (const auto& [deflection, rotation] : {kLawPairs[0], kLawPairs[2], kLawPairs[4]}) {

@@ -76,7 +76,7 @@ void check_orders(Element element, const Orders& o) {
 
 }  // namespace
 
-TEST_CASE("orders of the clamped square, of the simply supported one, and with a stiffness that varies") {
+TEST_CASE("orders of the clamped square, of the simply supported one, and with a stiffness that varies" * doctest::test_suite("large")) {
   for (const Element element : kElements)
     for (const bool distorted : {false, true})
       for (const bool is_clamped : {true, false})
@@ -99,7 +99,7 @@ TEST_CASE("orders of the clamped square, of the simply supported one, and with a
         }
 }
 
-TEST_CASE("orders with deflections and rotations prescribed by functions that are no polynomials") {
+TEST_CASE("orders with deflections and rotations prescribed by functions that are no polynomials" * doctest::test_suite("large")) {
   // u = exp(x) sin(2y): Δ²u = (1 − 4)² u.
   const auto exact = [](double x, double y) {
     const double e = std::exp(x), s = std::sin(2 * y), c = std::cos(2 * y);

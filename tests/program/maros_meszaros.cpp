@@ -10,7 +10,7 @@
 using namespace dotyk;
 using program::Status;
 
-TEST_CASE("the programs of ../shared/reference/qp: listed optimum, feasibility, both variants") {
+TEST_CASE("the programs of ../shared/reference/qp: listed optimum, feasibility, both variants" * doctest::test_suite("large")) {
   const std::string folder = std::string(DOTYK_TEST_DIR) + "/../../../shared/reference/qp/";
   std::ifstream index(folder + "maros_meszaros_index.csv");
   if (!index) {

@@ -198,7 +198,7 @@ mesh::Point down(int dim) {
 
 }  // namespace
 
-TEST_CASE("effectivity lies between 0.5 and 3: smooth, with corners, with contact and friction, two bodies, two materials") {
+TEST_CASE("effectivity lies between 0.5 and 3: smooth, with corners, with contact and friction, two bodies, two materials" * doctest::test_suite("large")) {
   for (const int dim : {2, 3}) {
     const int n = dim == 2 ? 16 : 4, rounds = dim == 2 ? 3 : 2;
     const auto tresca = scene::Friction{scene::Friction::Kind::tresca, [](const mesh::Point&) { return 2.0; }};
@@ -286,7 +286,7 @@ TEST_CASE("on soft springs, of a part or by a law, the estimate is measured by t
     }
 }
 
-TEST_CASE("a block that tilts on elastic laws: what these lose by acting at nodes is part of the estimate") {
+TEST_CASE("a block that tilts on elastic laws: what these lose by acting at nodes is part of the estimate" * doctest::test_suite("large")) {
   using Kind = problem::SupportLaw::Kind;
   const struct { const char* name; problem::SupportLaw (*law)(double k); } cases[] = {
       {"elastic", [](double k) { return problem::SupportLaw{Kind::elastic, k}; }},

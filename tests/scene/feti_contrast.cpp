@@ -124,7 +124,7 @@ solver::Feti by_boxes(std::array<int, 3> boxes) {
 
 }  // namespace
 
-TEST_CASE("two blocks of unlike stiffness: steps bounded, every body in equilibrium") {
+TEST_CASE("two blocks of unlike stiffness: steps bounded, every body in equilibrium" * doctest::test_suite("large")) {
   for (const bool stiff_above : {false, true}) {
     const auto make = [=](int dim) {
       return [=](double c) { return two_blocks(dim, stiff_above ? Moduli{100, 100 * c} : Moduli{100 * c, 100}); };
@@ -141,7 +141,7 @@ TEST_CASE("towers of free blocks, soft and stiff: steps bounded, every block in 
   }
 }
 
-TEST_CASE("stiff inclusions, each a piece or inside a piece: steps bounded") {
+TEST_CASE("stiff inclusions, each a piece or inside a piece: steps bounded" * doctest::test_suite("large")) {
   const auto whole = [](const std::array<int, 3>& box, const Point&) { return box[0] % 2 && box[1] % 2 && box[2] % 2; };
   const auto inside = [](const std::array<int, 3>&, const Point& x) {
     return std::max({std::abs(x[0] - 0.5), std::abs(x[1] - 0.5), std::abs(x[2] - 0.5)}) < 0.26;

@@ -65,7 +65,7 @@ algebra::Vector start(const test::FetiProgram& feti, bool open) {
 
 }  // namespace
 
-TEST_CASE("each inner step on the dual of blocks in space: admissible, L falls, kinds as proportionality asks") {
+TEST_CASE("each inner step on the dual of blocks in space: admissible, L falls, kinds as proportionality asks" * doctest::test_suite("large")) {
   for (const auto family : test::kFamilies)
     for (const double tresca : {0.0, 0.8})
       for (const Update update : kUpdates)
@@ -94,7 +94,7 @@ TEST_CASE("each inner step on the dual of blocks in space: admissible, L falls, 
         }
 }
 
-TEST_CASE("dual degenerate scenes: rows that touch without force do not swing between open and closed") {
+TEST_CASE("dual degenerate scenes: rows that touch without force do not swing between open and closed" * doctest::test_suite("large")) {
   for (const auto family : test::kFamilies)
     for (const auto& make : {side_by_side, fitted})
       for (const Update update : kUpdates)

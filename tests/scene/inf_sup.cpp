@@ -73,7 +73,7 @@ TEST_CASE("one constant multiplier against a rigid floor: √coth, with the far 
       }
 }
 
-TEST_CASE("dual cells, and cells in space of two facets' width, are stable; cells of one facet are not") {
+TEST_CASE("dual cells, and cells in space of two facets' width, are stable; cells of one facet are not" * doctest::test_suite("large")) {
   // As the mesh is refined the constant tends to a limit, or to 0 as h does.
   for (const auto family : test::kFamilies) {
     const scene::Discretisation cells{Multipliers::p1_p0, 0};

@@ -95,7 +95,7 @@ TEST_CASE("equal pieces that rows touch alike share the inside's factor") {
   CHECK(dirichlet_of(dual).factors() == 2 * 2 + 2 * 3);
 }
 
-TEST_CASE("spectra on im P: from 1 on with either preconditioner, to H/h with the lumped one, to log² with the Dirichlet one") {
+TEST_CASE("spectra on im P: from 1 on with either preconditioner, to H/h with the lumped one, to log² with the Dirichlet one" * doctest::test_suite("large")) {
   // With orthonormal rows <λ, F λ> ≥ <λ, B Bᵀμ>²/|Bᵀμ|²_S = <λ, μ>²/<M μ, μ> for all μ: F ≥ M⁻¹ on im P, for S and for K ≥ S.
   double last = 0;
   for (const int n : {4, 6}) {  // n × n/2 × n/2 cells a piece, all rows equations

@@ -77,7 +77,7 @@ TEST_CASE("free bodies with friction in the plane: the search excludes all piece
   CHECK(unsolvable > 5);
 }
 
-TEST_CASE("free bodies with friction in space: what the search excludes, no method solves; what a method solves, the search does not exclude") {
+TEST_CASE("free bodies with friction in space: what the search excludes, no method solves; what a method solves, the search does not exclude" * doctest::test_suite("large")) {
   Monitor quiet;
   int solved = 0, excluded = 0;
   for (unsigned seed = 0; seed < 40; ++seed) {

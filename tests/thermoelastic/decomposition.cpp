@@ -71,7 +71,7 @@ double difference(const Data& d, Order order, const std::vector<std::string>& ex
 
 }  // namespace
 
-TEST_CASE("decomposed and coupled agree after 200 steps in the six exceptional cases and where solvability forces one") {
+TEST_CASE("decomposed and coupled agree after 200 steps in the six exceptional cases and where solvability forces one" * doctest::test_suite("large")) {
   const auto spring = law(LawKind::elastic, 20), weak = law(LawKind::elastic, 5);
   const problem::SupportLaw unequal{LawKind::unequal_elastic, 20, 0, 5};
   const std::vector<Case> cases{

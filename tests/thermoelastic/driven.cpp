@@ -205,7 +205,7 @@ Loads driven_loads() {
 
 }  // namespace
 
-TEST_CASE("orders 1 and 2 in time under moving supports and end forces, and of the balance of energy") {
+TEST_CASE("orders 1 and 2 in time under moving supports and end forces, and of the balance of energy" * doctest::test_suite("large")) {
   const auto at_end = [&](int steps, Order order, double& defect) {
     const Loads loads = driven_loads();
     Stepping s(driven_beam(), {}, {1.0 / steps, order, true, {}}, loads, monitor);

@@ -108,7 +108,7 @@ TEST_CASE("orders 1 and 2 in time") {
   }
 }
 
-TEST_CASE("order 2 in time stays where supports close and open on the way") {
+TEST_CASE("order 2 in time stays where supports close and open on the way" * doctest::test_suite("large")) {
   Data d = thermal_beam(12);
   d.supports[0].deflection = d.supports[0].rotation = law(LawKind::prescribed);
   d.supports[1].deflection = law(LawKind::signorini);
