@@ -98,7 +98,7 @@ do
   local ranks <const>, all <const> = 1000, 1e9
   local own <const> = all / ranks
   local edge <const> = (own / 3)^(1 / 3)  -- nodes
-  local levels <const> = math.ceil(math.log(all / 1e4, 8))  -- that are shared. What follows, of 10 000 unknowns at most, each rank has whole
+  local levels <const> = math.ceil(math.log(all / 1e4, 8))  -- that are shared. The next one has 10 000 unknowns at most, and each rank has it whole
   local whole <const> = all / 8^levels
   -- A level has an eighth of the unknowns of the finer one. Each sends its faces twice in a sweep, and in an interpolation up and down: 6 times on the two finest
   -- levels, 10 times below, where there are four sweeps. The finest level sends them once more for a product.

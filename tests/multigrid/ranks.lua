@@ -22,7 +22,7 @@ local function told(code, options)
   local out <const> = assert(io.open(file, "w"))
   out:write(scene, code)
   out:close()
-  local pipe <const> = io.popen(("OPENBLAS_NUM_THREADS=1 timeout 500 '%s' %s '%s' 2>&1; echo status $?"):format(program, options or "", file))
+  local pipe <const> = io.popen(("OPENBLAS_NUM_THREADS=1 timeout 250 '%s' %s '%s' 2>&1; echo status $?"):format(program, options or "", file))
   local text <const> = pipe:read "a"
   pipe:close()
   os.remove(file)
@@ -40,6 +40,8 @@ if not told("cube(4)"):find("libpetsc", 1, true) then
   says(told("", "--safe /tmp --ranks 2"), "--safe starts no other programs", 2)
   says(told("dotyk.ranks(2)", "--safe /tmp"), "--safe starts no other programs", 1)
   says(told "print(dotyk.ranks()) dotyk.ranks(0)", "count", 1)
+  -- Ctrl-C, most likely within an iteration: all ranks leave it, or the program would not end.
+  says(told "dotyk.ranks(2) os.execute '(sleep 0.5; kill -INT $PPID) &' while true do cube(20) end", "interrupted", 1)
   -- A free block on a plane, of enough unknowns for coarser meshes: motions that no row notices are none of the answer.
   local free <const> = [[ local s, b = cube(12, true)
     local x, y = 0, 0
@@ -79,7 +81,7 @@ if not told("cube(4)"):find("libpetsc", 1, true) then
   local refined = [[
     local function material(E) return dotyk.material{ E = E, nu = 0.3 } end
     local function say(s, c, body, part, ...)
-      local numbers = { s.unknowns, s.rows, s.energy, s:contact(c).area, s:stress(body, ...).von_mises }
+      local numbers = { s.multigrid.cg, s.multigrid.levels, s.unknowns, s.rows, s.energy, s:contact(c).area, s:stress(body, ...).von_mises }
       for _, list in ipairs{ s:contact(c).force, { s:displacement(body, ...) }, { s:reaction(part) } } do for i = 1, #list do numbers[#numbers + 1] = list[i] end end
       for i, number in ipairs(numbers) do numbers[i] = ("%.13g"):format(number) end
       print("|" .. table.concat(numbers, " ") .. "|")
@@ -199,9 +201,10 @@ if not told("cube(4)"):find("libpetsc", 1, true) then
     check.that(#several == #alone, text)
     for k, own in ipairs(alone) do
       local greatest = 0  -- of displacements and forces, whose components may vanish
-      for i = 6, #own do greatest = math.max(greatest, math.abs(own[i])) end
+      for i = 8, #own do greatest = math.max(greatest, math.abs(own[i])) end
       for i, number in ipairs(own) do
-        check.near(several[k][i], number, 1e-9 * (i <= 5 and math.abs(number) or greatest))
+        -- Iterations: up to a fifth more or fewer on pieces as small as these, most of whose nodes are next to other ranks'.
+        check.near(several[k][i], number, #own > 5 and i == 1 and 0.2 * number or 1e-9 * (i <= 7 and math.abs(number) or greatest))
       end
     end
   end

@@ -15,7 +15,7 @@ ln -s /etc below/etc
 # refused NAME TEXT CODE: the script ends with the line "-e:1: …TEXT…" and nothing else; nothing outside has changed.
 refused() {
   local got status
-  got=$(timeout 120 "$dotyk" --safe below -e "$3" 2>&1)
+  got=$(timeout 60 "$dotyk" --safe below -e "$3" 2>&1)
   status=$?
   [[ $status == 1 && $got == "dotyk: -e:1: "*"$2"* && $(grep -vc "^$(printf "\t")" <<<"$got") == 1 ]] || fail "$1: status $status, $got"
   [[ $(ls outside) == $'module2.lua\nsecret.txt' && $(<outside/secret.txt) == 'a secret' ]] || fail "$1: something outside has changed"
@@ -24,7 +24,7 @@ refused() {
 # allowed NAME OUTPUT CODE
 allowed() {
   local got
-  got=$(timeout 120 "$dotyk" --safe below -e "$3" 2>&1)
+  got=$(timeout 60 "$dotyk" --safe below -e "$3" 2>&1)
   [[ $got == "$2" ]] || fail "$1: got $got"
 }
 
@@ -128,7 +128,7 @@ for picture in plain/images/*; do cmp "$picture" "below/images/${picture##*/}" |
 # Instructions: nothing swallows the limit. Each script would run for ever.
 spent() {
   local got
-  got=$(timeout 120 "$dotyk" --instructions 3e6 -e "$2" 2>&1)
+  got=$(timeout 60 "$dotyk" --instructions 3e6 -e "$2" 2>&1)
   [[ $? == 1 && $got == *'the limit of 3000000 instructions is reached (--instructions)' ]] || fail "$1: $got"
 }
 spent "a loop" 'while true do end'
@@ -157,7 +157,7 @@ wait $!
 [[ $(<err.txt) == 'dotyk: -e:1: interrupted' ]] || fail "Ctrl-C beside the limit: $(<err.txt)"
 
 # Processors' time: also of what runs in C for ever.
-got=$(timeout 120 "$dotyk" --seconds 1 -e 'table.move({}, 1, 1 << 60, 2)' 2>&1)
+got=$(timeout 60 "$dotyk" --seconds 1 -e 'table.move({}, 1, 1 << 60, 2)' 2>&1)
 [[ $? == 1 && $got == "dotyk: the limit of processors' time is reached (--seconds)" ]] || fail "--seconds: $got"
 
 # That of the programs that read files counts, and each gets no more than what is left: a bad file of many cells, again and again.
@@ -167,14 +167,14 @@ bad='local f = io.open("below/bad.msh", "w") f:write("$MeshFormat\n2.2 0 8\n$End
   for i = 0, 159999 do local a = i // 400 * 401 + i % 400 + 1 f:write(i + 1, " 3 2 1 1 ", a, " ", a + 401, " ", a + 402, " ", a + 900000, "\n") end
   f:write "$EndElements\n" f:close()'
 "$dotyk" -e "$bad"
-got=$(timeout 120 "$dotyk" --safe below --seconds 1 -e 'while true do pcall(dotyk.mesh.load, "below/bad.msh") end' 2>&1)
+got=$(timeout 60 "$dotyk" --safe below --seconds 1 -e 'while true do pcall(dotyk.mesh.load, "below/bad.msh") end' 2>&1)
 [[ $? == 1 && $got == "dotyk: the limit of processors' time is reached (--seconds)" ]] || fail "--seconds and files: $got"
 rm below/bad.msh
 
 # The same without a word where the script is a stranger's; what Lua's library does meanwhile no count of instructions sees.
 endless() {
   local got
-  got=$(timeout 120 "$dotyk" --safe below --seconds 1 -e "$2" 2>&1)
+  got=$(timeout 60 "$dotyk" --safe below --seconds 1 -e "$2" 2>&1)
   [[ $? == 1 && ($got == "dotyk: the limit of processors' time is reached (--seconds)" || $got == *'not enough memory') ]] || fail "$1: $got"
 }
 endless "a pattern" '(("a"):rep(40) .. "b"):find(("a?"):rep(40) .. ("a"):rep(40) .. "c")'

@@ -66,7 +66,7 @@ print(small and t.converged and "small solved" or "small refused " .. tostring(t
 ]]
 local killed, seen = {}, {}
 local function run(cells, megabytes)
-  local pipe = io.popen(("OPENBLAS_NUM_THREADS=1; export OPENBLAS_NUM_THREADS; ulimit -v %d; timeout 200 '%s' -e '%s' 2>&1; echo status $?"):format(
+  local pipe = io.popen(("OPENBLAS_NUM_THREADS=1; export OPENBLAS_NUM_THREADS; ulimit -v %d; timeout 120 '%s' -e '%s' 2>&1; echo status $?"):format(
     math.floor(megabytes * 1000), program, child:format(cells)))
   local text = pipe:read "a"
   pipe:close()
@@ -107,7 +107,7 @@ end
 -- 3. Stopped by a signal.
 local signals, deaf = 0, {}
 for _, after in ipairs{ 0.02, 0.05, 0.1, 0.2, 0.35, 0.5 } do
-  local pipe = io.popen(("timeout 200 '%s' -e '%s\nos.execute \"(sleep %g; kill -INT $PPID) &\"\nwhile true do cube(%d) end' 2>&1; echo status $?"):format(
+  local pipe = io.popen(("timeout 120 '%s' -e '%s\nos.execute \"(sleep %g; kill -INT $PPID) &\"\nwhile true do cube(%d) end' 2>&1; echo status $?"):format(
     program, cubes, after, math.min(n, 12)))
   local text = pipe:read "a"
   pipe:close()

@@ -123,7 +123,7 @@ local kinds <const> = {
 -- Starts, waits for the first answer and a moment more, does it, and tells the status and how many processes are left.
 local harness <const> = [[
 out=%s; file=%s.vtu
-OPENBLAS_NUM_THREADS=1 timeout -k 1 120 '%s' '%s' %d $file >$out 2>&1 & runner=$!
+OPENBLAS_NUM_THREADS=1 timeout -k 1 60 '%s' '%s' %d $file >$out 2>&1 & runner=$!
 for i in $(seq 200); do grep -q '^answer' $out && break; sleep 0.05; done
 children() { cat /proc/$1/task/*/children 2>/dev/null; }
 zero=$(children $runner | awk '{ print $1 }'); workers=

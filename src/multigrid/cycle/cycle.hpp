@@ -38,7 +38,7 @@ class Cycle {
   double bytes() const { return bytes_; }  ///< of all ranks, after the last set()
 
  private:
-  /// All but the last.
+  /// A level of hierarchy_, except the last one.
   struct Level {
     Sweeps sweeps;
     int count;  ///< of sweeps before the coarse correction, and after it
@@ -48,22 +48,23 @@ class Cycle {
 
   /// x = M⁻¹ b, M the V-cycle from this level on.
   void descend(std::size_t level, Vec b, Vec x);
-  void solve_last(Vec b, Vec x);
-  bool set(HalfRows rows);  ///< all numbers of the finest matrix
-  /// Numbers of all levels. False where they are seen not to be positive definite. `shared`: as in Change.
+  void solve_last(Vec b, Vec x);  ///< by the factor, or by whole_
+  int first_swept_twice() const;  ///< the level
+  bool set(const AllNumbers& numbers);
+  /// Prepares sweeps and factors for the numbers that hierarchy_ has. False where a matrix is found not to be positive definite. `shared`: as in Change.
   bool take_levels(const std::vector<int>& shared);
   bool take_last();
-  static bool wants_end(Monitor* monitor, Solution& solution);
 
   const Ranks ranks_;
   Hierarchy hierarchy_;
   std::vector<Level> levels_;
   SharedRows shared_;
-  // The last level. On one rank it is the coarsest: full rows, and their factor. On several ranks the cycle goes on with all rows on each of them.
+  // The last level. On one rank it is the coarsest: last_ has its full rows, coarsest_ their factor. On several ranks each has in whole_ a cycle of its own, with
+  // all rows of this level and of the coarser ones.
   OwnedMat last_;
   OwnedKsp coarsest_;
   std::unique_ptr<Cycle> whole_;
-  std::vector<int> counts_;  ///< rows of each rank
+  std::vector<int> counts_;  ///< its rows, by rank
   OwnedVec x_, left_, z_, p_, Ap_;  ///< of conjugate gradients
   double bytes_ = 0;
 };

@@ -88,7 +88,7 @@ double greatest_coupling(HalfMatrix& A, const std::vector<NodeBlock>& weighted) 
   std::minstd_rand numbers(1 + static_cast<unsigned>(ranks.own()));  // the same numbers on all ranks would be nearly orthogonal to the eigenvector, which changes its sign from rank to rank
   std::vector<double> v(between.count()), before(v.size()), diagonal, beside;
   for (double& number : v) number = std::uniform_real_distribution<>(-1, 1)(numbers);
-  double size = std::sqrt(ranks.sum(dot(v, v)));  // of v, which is divided by it in each step
+  double size = std::sqrt(ranks.sum(dot(v, v)));  // of v; each step begins by dividing v by it
   Ritz greatest{0, 0};
   for (int k = 0; k < kMostSteps && size > 0; ++k) {
     for (double& number : v) number /= size;
@@ -97,7 +97,7 @@ double greatest_coupling(HalfMatrix& A, const std::vector<NodeBlock>& weighted) 
       for (std::size_t i = 0; i < w.size(); ++i) w[i] -= size * before[i];
     const auto [on_v, square] = ranks.sum({dot(w, v), dot(w, w)});
     for (std::size_t i = 0; i < w.size(); ++i) w[i] -= on_v * v[i];
-    size = std::sqrt(std::max(0.0, square - on_v * on_v));  // Pythagoras
+    size = std::sqrt(std::max(0.0, square - on_v * on_v));  // of w: ‖w − (w · v) v‖² = ‖w‖² − (w · v)²
     diagonal.push_back(on_v), beside.push_back(size);
     before = std::exchange(v, std::move(w));
     greatest = greatest_ritz(diagonal, beside);

@@ -4,8 +4,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "multigrid/rows/all_rows.hpp"
-
 namespace dotyk::multigrid {
 
 namespace {
@@ -141,10 +139,12 @@ OwnedMat Hierarchy::oblong(Rows& rows, int own_columns, std::array<int, 2> block
   return matrix_of(ranks_, rows, others_.emplace_back(), own_columns, blocks);
 }
 
-bool Hierarchy::aggregates() const { return piece_.finer == 0 && (meshes() == 0 || aggregates_follow(ranks_.sum(piece_.own.back()), ranks_.sum(piece_.own[0]))); }
+bool Hierarchy::aggregates() {
+  return piece_.shared_levels == 0 && (meshes() == 0 || aggregates_follow(ranks_.sum(piece_.own.back()), ranks_.sum(piece_.own[0])));
+}
 
-/// A level of few unknowns takes less time on each rank than messages between them.
-int Hierarchy::shared_meshes() const {
+/// On a level of few unknowns messages take longer than the work, which each rank then does alone.
+int Hierarchy::shared_meshes() {
   constexpr double kShare = 1000, kMost = 10'000;  // unknowns of a rank, of all
   if (ranks_.alone() || aggregates()) return meshes();
   int count = 1;
@@ -152,20 +152,12 @@ int Hierarchy::shared_meshes() const {
   return count;
 }
 
-/// A second sweep costs little where a level has few unknowns. Measured with PETSc's sweeps: on the second coarser mesh and below (1/64 of the unknowns) it
-/// saves a tenth of the iterations with friction, 28 instead of 31 on a cube of 64³ cells. Where aggregates follow the coarsest mesh, they converge more
-/// slowly than meshes, and a second sweep from that mesh on saves a fifth: 22 instead of 27 on 76³ cells, with aggregates below 19³.
-int Hierarchy::first_swept_twice() const {
-  const int all = piece_.finer + meshes();
-  return all == 0 ? levels() : std::min(all, 2) - piece_.finer;
-}
-
-Piece Hierarchy::last_for_all() const {
+Piece Hierarchy::last_for_all() {
   Piece piece;
-  piece.finer = piece_.finer + levels() - 1;
+  piece.shared_levels = levels();
   piece.block = piece.dimension = matrices_.back()->block();
   piece.matrix = all_rows(ranks_, matrices_.back()->stored());
-  piece.own = {static_cast<int>(piece.matrix.diagonal.size()) / piece.block};
+  piece.own = {piece.matrix.nodes() * piece.block};
   auto functions = std::make_shared<std::vector<OwnFunctions>>();
   for (int l = levels() - 1; l < meshes(); ++l) {
     functions->push_back(all_rows(ranks_, (*piece_.functions)[l]));
@@ -179,7 +171,7 @@ void Hierarchy::coarsen() {
   const bool same = piece_.unknowns.columns.empty();
   OwnedMat S;
   if (!ranks_.all(same)) S = oblong(piece_.unknowns, piece_.own[0], {piece_.block, piece_.block});
-  if (meshes() > 0 || piece_.finer > 0) {
+  if (meshes() > 0 || piece_.shared_levels > 0) {
     take(piece_.beside);
     take_functions(S);
     if (piece_.coarser) compute_coarser();
@@ -315,9 +307,8 @@ bool Hierarchy::set(const Change& change) {
   return true;
 }
 
-void Hierarchy::set(HalfRows rows) {
-  matrix(0) = HalfMatrix(ranks_, std::move(rows));
-  std::ranges::fill(pending_[0], 1);
+void Hierarchy::set(const AllNumbers& numbers) {
+  matrix(0).take(numbers.below, numbers.diagonal, pending_[0]);
   fill_coarse();
 }
 

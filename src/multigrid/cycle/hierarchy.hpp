@@ -1,6 +1,7 @@
 // Matrices and interpolations of all levels.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <deque>
 #include <map>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "multigrid/cycle/galerkin.hpp"
+#include "multigrid/rows/all_rows.hpp"
 #include "multigrid/shares/piece.hpp"
 
 namespace dotyk::multigrid {
@@ -20,10 +22,10 @@ class Hierarchy {
 
   /// New numbers, and the coarse matrices for them. False where they are seen not to be positive definite.
   bool set(const Change& change);
-  /// The same where all numbers of the finest matrix are new.
-  void set(HalfRows rows);
-  /// The last level and those after it, the same for each rank: all rows.
-  Piece last_for_all() const;
+  /// New numbers of the finest matrix as AllNumbers, and the coarse matrices for them. On one rank.
+  void set(const AllNumbers& numbers);
+  /// With what each rank goes on alone: all rows of the last level, and of the coarser meshes after it.
+  Piece last_for_all();
 
   /// Of the matrix of the next coarser mesh this rank's rows, without Piece::first, where the piece asks for them; once.
   HalfRows take_coarser() { return std::move(coarser_); }
@@ -32,8 +34,8 @@ class Hierarchy {
   int levels() const { return static_cast<int>(matrices_.size()); }
   HalfMatrix& matrix(int level) { return *matrices_[level]; }             ///< from 0, the finest
   Mat interpolation(int level) const { return interpolations_[level]; }   ///< from `level` + 1 to `level`
-  /// The first level that is swept twice.
-  int first_swept_twice() const;
+  int meshes() const { return static_cast<int>(piece_.own.size()) - 1; }  ///< coarser ones, those that last_for_all() has among them
+  int finer() const { return std::max(0, piece_.shared_levels - 1); }     ///< levels of which this hierarchy is the rest
   double bytes() const;  ///< of this rank
 
  private:
@@ -51,9 +53,8 @@ class Hierarchy {
   void take_aggregates(OwnedMat of);
   /// Interpolations from coarse displacements to the unknowns, and coarse matrices of these.
   void take_unknowns(Mat S);
-  int meshes() const { return static_cast<int>(piece_.own.size()) - 1; }  ///< coarser ones
-  bool aggregates() const;     ///< do they follow the coarsest mesh?
-  int shared_meshes() const;   ///< how many of the coarser ones are shared out, the last of them for last_for_all(), too
+  bool aggregates();         ///< do they follow the coarsest mesh?
+  int shared_meshes();       ///< how many coarser meshes have a level here; the others are left to last_for_all()
   void multiply(int level);  ///< makes the product that gives the next level
   /// The numbers of coarse matrices that are to be computed.
   void fill_coarse();

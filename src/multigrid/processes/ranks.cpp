@@ -62,7 +62,7 @@ void gather_numbers(const Ranks& ranks, const Number* own, const std::vector<int
 template <class Number>
 std::vector<Number> gather_numbers(const Ranks& ranks, const std::vector<Number>& own, MPI_Datatype type) {
   const std::vector<int> counts = ranks.gather(static_cast<int>(own.size()));
-  std::vector<Number> all(std::reduce(counts.begin(), counts.end(), std::size_t{0}));
+  std::vector<Number> all(std::accumulate(counts.begin(), counts.end(), std::size_t{0}));
   gather_numbers(ranks, own.data(), counts, all.data(), type);
   return all;
 }

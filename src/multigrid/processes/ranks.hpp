@@ -23,15 +23,15 @@ class Ranks {
 
   bool all(bool own) const;           ///< collective
   double sum(double own) const;       ///< collective
-  std::array<double, 2> sum(std::array<double, 2> own) const;  ///< collective
   double greatest(double own) const;  ///< collective
+  std::array<double, 2> sum(std::array<double, 2> own) const;  ///< of each of both; collective
 
   int before(int own) const;               ///< the sum over the ranks before this one; collective
   std::vector<int> gather(int own) const;  ///< by rank; collective
-  /// The numbers of all ranks, those of one after those of the other. Collective.
+  /// The numbers of all ranks, in the order of the ranks. Collective.
   std::vector<int> gather(const std::vector<int>& own) const;
   std::vector<double> gather(const std::vector<double>& own) const;
-  /// The same where it is known how many each rank has.
+  /// The same where it is known how many each rank has. Collective.
   void gather(const double* own, const std::vector<int>& counts, double* all) const;
 
   /// Sends `to` each rank its numbers and returns what came, by rank. Collective.

@@ -91,6 +91,18 @@ HalfMatrix::HalfMatrix(const Ranks& ranks, HalfRows rows)
     for (int& node : of_rank) node -= rows_.first;
 }
 
+void HalfMatrix::take(const std::vector<double>& below, const std::vector<double>& diagonal, std::vector<char>& changed) {
+  const std::ptrdiff_t square = block() * block();
+  const auto flag = [&](int node) { std::fill_n(changed.begin() + node * block(), block(), char{1}); };
+  for (int node = 0; node < nodes(); ++node) {
+    if (!std::equal(diagonal.begin() + node * square, diagonal.begin() + (node + 1) * square, rows_.diagonal.begin() + node * square)) flag(node);
+    for (int k = rows_.starts[node]; k < rows_.starts[node + 1]; ++k)
+      if (!std::equal(below.begin() + k * square, below.begin() + (k + 1) * square, rows_.below.begin() + k * square)) flag(node), flag(rows_.columns[k]);
+  }
+  std::ranges::copy(below, rows_.below.begin());
+  rows_.diagonal = diagonal;
+}
+
 double* HalfMatrix::find(int row, int column) {
   const int r = row % block(), c = column % block();
   const HalfRows::Place at = rows_.place(rows_.first + row / block(), column / block());

@@ -68,6 +68,9 @@ class HalfMatrix {
   int first_row() const { return rows_.first * block(); }
   bool has(int row) const { return rows_.own(row / block()); }
 
+  /// Takes numbers as HalfRows has them, `below` without spare ones. Sets the flags of rows whose numbers are new.
+  void take(const std::vector<double>& below, const std::vector<double>& diagonal, std::vector<char>& changed);
+
   /// The number at a row, counted from the rank's first, and a column; null where the pattern has no such entry. (i, j) and (j, i) share one place if they
   /// belong to different own nodes. Within one node each has its own, and both must be written.
   double* find(int row, int column);

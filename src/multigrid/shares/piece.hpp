@@ -25,7 +25,7 @@ struct Piece {
   int block = 1, dimension = 3;  ///< unknowns of a node: on the finest level, on coarser meshes
   int motions = 0;               ///< columns of `modes`
   int coarser = 0;               ///< the number of the slices that the matrix of the next coarser mesh becomes; 0: nobody asks for it
-  int finer = 0;                 ///< levels above the finest one here; 0: aggregates may follow the coarsest one
+  int shared_levels = 0;         ///< how many levels ranks share, the finest one here being the last of them; 0: this is no rest of a hierarchy. It is not sent
   std::vector<int> own;          ///< how many rows of each level are this rank's
   HalfRows matrix;               ///< idle rows have the mean of its diagonal
   int slices = 0;                ///< the number of the slices that have the matrix; 0: it is given
