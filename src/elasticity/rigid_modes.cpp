@@ -127,7 +127,7 @@ Resultants resultants(const Mesh& mesh, int times, const LinearForce& force, con
 
 DenseMatrix all_rigid_motions(const Mesh& mesh, const std::vector<int>& unknown, int count) {
   const RigidFrame frame(mesh);
-  DenseMatrix motions(count, frame.count());
+  DenseMatrix motions = DenseMatrix::Zero(count, frame.count());
   for (std::size_t k = 0; k < unknown.size(); ++k)
     if (unknown[k] >= 0) motions.row(unknown[k]) = frame.row(mesh, k);
   return motions;
