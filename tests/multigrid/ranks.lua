@@ -203,7 +203,7 @@ if not told("cube(4)"):find("libpetsc", 1, true) then
       local greatest = 0  -- of displacements and forces, whose components may vanish
       for i = 8, #own do greatest = math.max(greatest, math.abs(own[i])) end
       for i, number in ipairs(own) do
-        -- Iterations: up to a quarter more or fewer on pieces as small as these, another processor one more, most of whose nodes are next to other ranks'.
+        -- Most nodes of pieces as small as these are next to other ranks': there iterations are up to a sixth more. Other processors round differently.
         check.near(several[k][i], number, #own > 5 and i == 1 and 0.3 * number or 1e-9 * (i <= 7 and math.abs(number) or greatest))
       end
     end
