@@ -65,7 +65,7 @@ struct Resultants {
 /// Of the load that a force gives on the mesh refined `times` times, which is made a few cells at a time, where rules of quadrature tell it from the mesh as it is.
 Resultants resultants(const mesh::Mesh& mesh, int times, const LinearForce& force, const RigidModes& modes);
 
-/// All rigid motions, 3 or 6, on `count` unknowns, whatever holds the body. `unknown` as in Numbering; rows of numbers that it lacks are zero.
+/// All rigid motions, 3 or 6, on `count` unknowns, whatever holds the body. `unknown`: as in Numbering. An unknown of no node has a zero row.
 algebra::DenseMatrix all_rigid_motions(const mesh::Mesh& mesh, const std::vector<int>& unknown, int count);
 
 }  // namespace dotyk::elasticity

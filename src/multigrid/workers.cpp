@@ -123,10 +123,7 @@ void finalise(bool clean) {
 
 }  // namespace
 
-bool several_ranks_have_work(double unknowns) {
-  constexpr double kShare = 1000;  // unknowns
-  return ranks_now() > 1 && unknowns >= kShare * ranks_now();
-}
+bool several_ranks_have_work(double unknowns) { return ranks_now() > 1 && unknowns >= kFewestUnknowns * ranks_now(); }
 
 namespace {
 

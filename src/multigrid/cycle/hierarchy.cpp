@@ -143,12 +143,11 @@ bool Hierarchy::aggregates() {
   return piece_.shared_levels == 0 && (meshes() == 0 || aggregates_follow(ranks_.sum(piece_.own.back()), ranks_.sum(piece_.own[0])));
 }
 
-/// On a level of few unknowns messages take longer than the work, which each rank then does alone.
 int Hierarchy::shared_meshes() {
-  constexpr double kShare = 1000, kMost = 10'000;  // unknowns of a rank, of all
-  if (ranks_.alone() || aggregates()) return meshes();
+  constexpr double kMost = 10'000;  // unknowns of a level that many ranks have whole, too
+  if (ranks_.alone()) return meshes();
   int count = 1;
-  while (count < meshes() && ranks_.sum(piece_.own[count]) > std::min(kMost, kShare * ranks_.count())) ++count;
+  while (count < meshes() && ranks_.sum(piece_.own[count]) > std::min(kMost, kFewestUnknowns * ranks_.count())) ++count;
   return count;
 }
 
@@ -173,10 +172,11 @@ void Hierarchy::coarsen() {
   if (!ranks_.all(same)) S = oblong(piece_.unknowns, piece_.own[0], {piece_.block, piece_.block});
   if (meshes() > 0 || piece_.shared_levels > 0) {
     take(piece_.beside);
-    take_functions(S);
+    const bool end_in_aggregates = aggregates();
+    take_functions(S, end_in_aggregates ? meshes() : shared_meshes());
     if (piece_.coarser) compute_coarser();
     take(piece_.first);
-    if (aggregates()) {
+    if (end_in_aggregates) {
       fill_coarse();
       take_aggregates(whole(*matrices_.back()));
     }
@@ -198,8 +198,8 @@ void Hierarchy::multiply(int level) {
   if (level > 0) pending_.emplace_back(static_cast<std::size_t>(matrix(level).rows()), 1);
 }
 
-void Hierarchy::take_functions(Mat S) {
-  for (int l = 0, count = shared_meshes(); l < count; ++l) {
+void Hierarchy::take_functions(Mat S, int count) {
+  for (int l = 0; l < count; ++l) {
     OwnedMat P = oblong(rows_.emplace_back((*piece_.functions)[l].rows(piece_.dimension)), piece_.own[l + 1], {l == 0 ? piece_.block : piece_.dimension, piece_.dimension});
     if (l == 0 && piece_.load && piece_.coarser) restrict_load(P);
     if (l == 0 && S) P = product(S, P);

@@ -47,14 +47,14 @@ class Hierarchy {
   void coarsen();
   void compute_coarser();
   void restrict_load(Mat P);
-  /// Levels of coarser meshes. S: the unknowns, of displacements, all slots; null where they are the same.
-  void take_functions(Mat S);
+  /// Levels of the first `count` coarser meshes. S: the unknowns, of displacements, all slots; null where they are the same.
+  void take_functions(Mat S, int count);
   /// Levels of aggregates below a matrix of the near kernel that Piece::modes are.
   void take_aggregates(OwnedMat of);
   /// Interpolations from coarse displacements to the unknowns, and coarse matrices of these.
   void take_unknowns(Mat S);
   bool aggregates();         ///< do they follow the coarsest mesh?
-  int shared_meshes();       ///< how many coarser meshes have a level here; the others are left to last_for_all()
+  int shared_meshes();       ///< how many coarser meshes get a level here, where no aggregates follow; the others are left to last_for_all()
   void multiply(int level);  ///< makes the product that gives the next level
   /// The numbers of coarse matrices that are to be computed.
   void fill_coarse();

@@ -11,6 +11,9 @@
 
 namespace dotyk::multigrid {
 
+/// With fewer unknowns for each rank, messages take longer than the work that they share out.
+constexpr double kFewestUnknowns = 1000;
+
 /// Processes of one communicator, counted from 0. Functions of all of them together ("collective") must be called by all, in the same order.
 class Ranks {
  public:
@@ -28,7 +31,7 @@ class Ranks {
 
   int before(int own) const;               ///< the sum over the ranks before this one; collective
   std::vector<int> gather(int own) const;  ///< by rank; collective
-  /// The numbers of all ranks, in the order of the ranks. Collective.
+  /// Joins the lists of all ranks into one, in the order of the ranks. Collective.
   std::vector<int> gather(const std::vector<int>& own) const;
   std::vector<double> gather(const std::vector<double>& own) const;
   /// The same where it is known how many each rank has. Collective.

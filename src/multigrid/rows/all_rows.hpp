@@ -8,16 +8,16 @@
 
 namespace dotyk::multigrid {
 
-/// The rows of all ranks as those of one. Collective.
+/// Joins the rows of all ranks, as if one rank had them all. Collective.
 HalfRows all_rows(const Ranks& ranks, const HalfRows& own);
-/// The same of coarse functions.
+/// The same for the functions of a coarser mesh.
 OwnFunctions all_rows(const Ranks& ranks, const OwnFunctions& own);
 
-/// HalfRows::below, without spare numbers, and HalfRows::diagonal of all_rows().
+/// The numbers `below`, without the spare ones, and `diagonal` of the HalfRows that all_rows() makes.
 struct AllNumbers {
   std::vector<double> below, diagonal;
 };
-/// Collective.
+/// Only the numbers of all_rows(), for a matrix that has its pattern already. Collective.
 AllNumbers all_numbers(const Ranks& ranks, const HalfRows& own);
 
 }  // namespace dotyk::multigrid

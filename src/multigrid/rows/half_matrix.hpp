@@ -68,7 +68,8 @@ class HalfMatrix {
   int first_row() const { return rows_.first * block(); }
   bool has(int row) const { return rows_.own(row / block()); }
 
-  /// Takes numbers as HalfRows has them, `below` without spare ones. Sets the flags of rows whose numbers are new.
+  /// Replaces all numbers; the matrix is of one rank. `below` and `diagonal` are as in HalfRows, but `below` has no spare numbers. Sets the flag in `changed` of
+  /// each row that has a new number.
   void take(const std::vector<double>& below, const std::vector<double>& diagonal, std::vector<char>& changed);
 
   /// The number at a row, counted from the rank's first, and a column; null where the pattern has no such entry. (i, j) and (j, i) share one place if they

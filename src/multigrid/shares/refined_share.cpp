@@ -93,7 +93,7 @@ class Owners {
     std::vector<int> told;
     for (auto& [other, least] : between) {
       if (least.empty()) continue;
-      // How many nodes more than half of them this rank takes. One node that changes sides changes the difference of the two counts by four.
+      // How many more than half of the nodes between the two ranks this rank takes. If one of these nodes changes sides, the difference of the counts changes by four.
       const double more = (surplus(other) - surplus(ranks.own())) / (4 * std::max(neighbours[other], neighbours[ranks.own()]));
       const auto taken = std::clamp<std::ptrdiff_t>(std::lround(std::ssize(least) / 2.0 + more), 0, std::ssize(least));
       std::ranges::sort(least);
