@@ -20,6 +20,8 @@ class Buckets {
     visit([&](int bucket, int number) { numbers_[next[bucket]++] = number; });
   }
 
+  /// How many numbers lie in the buckets before this one.
+  int before(int bucket) const { return start_[bucket]; }
   int count() const { return static_cast<int>(start_.size()) - 1; }
   std::size_t bytes() const { return sizeof(int) * (start_.size() + numbers_.size()); }
   std::span<const int> operator[](int bucket) const {

@@ -7,11 +7,11 @@ namespace dotyk::mesh {
 std::vector<int> facet_neighbours(const Mesh& mesh) {
   const FacetTable table(mesh);
   std::vector<int> neighbour(table.count(), -1);
-  parallel_ranges(table.count(), threads_for(mesh.cell_count(), FacetTable::kFewCells), [&](int, int first, int end) {
-    for (int f = first; f < end; ++f)
-      table.with(table.corners(f), [&](int g) {
-        if (g != f && neighbour[f] < 0) neighbour[f] = g / mesh.topology().facets;
-      });
+  const auto found = [&](int f, int g) {
+    if (neighbour[f] < 0) neighbour[f] = g / mesh.topology().facets;
+  };
+  parallel_ranges(mesh.node_count(), threads_for(mesh.cell_count(), FacetTable::kFewCells), [&](int, int first, int end) {
+    for (int node = first; node < end; ++node) table.pairs(node, [&](int f, int g) { found(f, g), found(g, f); });
   });
   return neighbour;
 }

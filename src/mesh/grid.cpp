@@ -39,12 +39,13 @@ std::vector<double> ticks(double a, double b, int n, const Grading& grading, con
 namespace {
 
 /// How a box of the grid is made of cells: the corners of each as bits, bit k set at the upper end of axis k, in the order of the cell's
-/// nodes. Simplices: along the paths of axes from corner 0 to the last (Kuhn), each oriented positively.
+/// nodes. Simplices: along the paths of axes from corner 0 to the last (Kuhn), each oriented positively, so that cut_at_nodes() cuts them as the grid of half the
+/// step is cut.
 using Corners = std::vector<std::vector<int>>;
 
 const Corners& corners_of(int dimension, bool simplices) {
   static const Corners triangles{{0, 1, 3}, {0, 3, 2}}, quadrilateral{{0, 1, 3, 2}},
-      tetrahedra{{0, 1, 3, 7}, {0, 5, 1, 7}, {0, 3, 2, 7}, {0, 2, 6, 7}, {0, 4, 5, 7}, {0, 6, 4, 7}}, hexahedron{{0, 1, 3, 2, 4, 5, 7, 6}};
+      tetrahedra{{0, 1, 3, 7}, {0, 7, 5, 1}, {0, 7, 3, 2}, {0, 2, 6, 7}, {0, 4, 5, 7}, {0, 7, 6, 4}}, hexahedron{{0, 1, 3, 2, 4, 5, 7, 6}};
   if (dimension == 2) return simplices ? triangles : quadrilateral;
   return simplices ? tetrahedra : hexahedron;
 }

@@ -1,6 +1,7 @@
 #include "mesh/second_order.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "mesh/facet_table.hpp"
@@ -128,36 +129,77 @@ Facet facet_of_pieces(const ElementTopology& piece, const PieceCorners& pieces, 
   throw std::logic_error("no piece of a cell has this piece of its facet");
 }
 
+/// How a cell is cut: its pieces, and for each of its facets the facets of pieces that make it up.
+struct Cut {
+  PieceCorners pieces;
+  std::vector<std::vector<Facet>> within;
+};
+
+Cut cut_of(const ElementTopology& whole, const ElementTopology& piece, PieceCorners pieces) {
+  const bool simplex = whole.corners == whole.dimension + 1;
+  Cut cut{std::move(pieces), std::vector<std::vector<Facet>>(static_cast<std::size_t>(whole.facets))};
+  for (std::size_t l = 0; l < cut.within.size(); ++l)
+    for (std::vector<int> corners : whole.dimension == 2 || simplex ? simplex_pieces(whole.dimension - 1) : tensor_pieces(2)) {
+      for (int& k : corners) k = whole.facet_nodes[l][k];
+      cut.within[l].push_back(facet_of_pieces(piece, cut.pieces, corners));
+    }
+  return cut;
+}
+
+/// The ways to cut a cell. A tetrahedron has three, one along each diagonal of the octahedron in it: the second and the third are the first with corners 1, 2 and 3
+/// in turn.
+std::vector<Cut> cuts_of(const ElementTopology& whole, const ElementTopology& piece) {
+  if (whole.corners != whole.dimension + 1) return {cut_of(whole, piece, tensor_pieces(whole.dimension))};
+  PieceCorners pieces = simplex_pieces(whole.dimension);
+  std::vector<Cut> cuts{cut_of(whole, piece, pieces)};
+  while (whole.dimension == 3 && cuts.size() < 3) {
+    constexpr int kTurned[] = {0, 2, 3, 1, 6, 9, 7, 4, 5, 8};
+    for (std::vector<int>& corners : pieces)
+      for (int& k : corners) k = kTurned[k];
+    cuts.push_back(cut_of(whole, piece, pieces));
+  }
+  return cuts;
+}
+
+/// Along the shortest diagonal the pieces degenerate least (Zhang, Houston J. Math. 21 (1995)). Of equal ones the first is taken, which keeps to few shapes.
+std::size_t best_cut(const Mesh& whole, int cell) {
+  constexpr int kDiagonals[3][2] = {{6, 8}, {7, 5}, {4, 9}};
+  constexpr double kShorter = 1 - 1e-6;
+  std::size_t best = 0;
+  double least = INFINITY;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const int* nodes = whole.cell(cell);
+    const Point along = minus(whole.point(nodes[kDiagonals[k][0]]), whole.point(nodes[kDiagonals[k][1]]));
+    if (const double square = dot(along, along); square < kShorter * least) best = k, least = square;
+  }
+  return best;
+}
+
 }  // namespace
 
 Mesh cut_at_nodes(Mesh whole) {
   if (whole.topology().order == 1) return whole;
   const ElementTopology& t = whole.topology();
-  const bool simplex = t.corners == t.dimension + 1;
-  const PieceCorners pieces = simplex ? simplex_pieces(t.dimension) : tensor_pieces(t.dimension);
-  const PieceCorners facet_pieces = t.dimension == 2 || simplex ? simplex_pieces(t.dimension - 1) : tensor_pieces(2);
   Mesh mesh;
   mesh.element = first_order(whole.element);
   mesh.coordinates = whole.coordinates;
   mesh.coarser = whole.coarser;
-  mesh.cells.reserve(static_cast<std::size_t>(whole.cell_count()) * pieces.size() * static_cast<std::size_t>(t.corners));
+  const std::vector<Cut> cuts = cuts_of(t, mesh.topology());
+  const std::size_t pieces = cuts.front().pieces.size();
+  const auto cut_of_cell = [&](int cell) -> const Cut& { return cuts[cuts.size() == 1 ? 0 : best_cut(whole, cell)]; };
+  mesh.cells.reserve(static_cast<std::size_t>(whole.cell_count()) * pieces * static_cast<std::size_t>(t.corners));
   for (int c = 0; c < whole.cell_count(); ++c)
-    for (const std::vector<int>& piece : pieces)
+    for (const std::vector<int>& piece : cut_of_cell(c).pieces)
       for (const int k : piece) mesh.cells.push_back(whole.cell(c)[k]);
   if (whole.one_piece()) mesh.generated = {mesh.coordinates.size(), mesh.cells.size()};
-  std::vector<std::vector<Facet>> within(static_cast<std::size_t>(t.facets));  // facet of a cell → its pieces
-  for (std::size_t l = 0; l < within.size(); ++l)
-    for (std::vector<int> corners : facet_pieces) {
-      for (int& k : corners) k = t.facet_nodes[l][k];
-      within[l].push_back(facet_of_pieces(mesh.topology(), pieces, corners));
-    }
   const auto cut = [&](const std::vector<Facet>& facets, std::vector<Facet>& to) {
     for (const Facet facet : facets)
-      for (const Facet of : within[static_cast<std::size_t>(facet.local)]) to.push_back({facet.cell * static_cast<int>(pieces.size()) + of.cell, of.local});
+      for (const Facet of : cut_of_cell(facet.cell).within[static_cast<std::size_t>(facet.local)])
+        to.push_back({facet.cell * static_cast<int>(pieces) + of.cell, of.local});
   };
   for (const auto& [name, facets] : whole.parts) cut(facets, mesh.parts[name]);
   if (!whole.whole) return mesh;
-  auto known = std::make_shared<Whole>(Whole{{}, whole.whole->nodes, whole.whole->cells * static_cast<std::int64_t>(pieces.size())});
+  auto known = std::make_shared<Whole>(Whole{{}, whole.whole->nodes, whole.whole->cells * static_cast<std::int64_t>(pieces)});
   cut(whole.whole->boundary, known->boundary);
   std::ranges::sort(known->boundary);
   mesh.whole = std::move(known);

@@ -74,20 +74,17 @@ bool same_way(const mesh::Mesh& mesh, mesh::Facet f, mesh::Facet g) {
   return mesh.facet_node(g, (at + 1) % n) == mesh.facet_node(f, 1) && (n > 2 || at == 0);
 }
 
-/// Right-handed cells that share a facet lie on its two sides, unless the mesh is folded; there are never three.
+/// Right-handed cells that share a facet lie on its two sides, unless the mesh is folded; so there are never three.
 void refuse_overlaps(const mesh::Mesh& mesh, const mesh::FacetTable& table, const std::string& what) {
   const int facets = mesh.topology().facets;
-  std::vector<mesh::Facet> all;
-  for (int f = 0; f < table.count(); ++f) {
-    all.clear();
-    table.with(table.corners(f), [&](int g) { all.push_back({g / facets, g % facets}); });
-    for (std::size_t k = 1; k < all.size(); ++k)
-      if (all.size() > 2 || same_way(mesh, all[0], all[k])) {
-        const mesh::Point x = mesh.facet_centre(all[0]);
-        throw InputError(text(what, ": cells ", all[0].cell + 1, " and ", all[k].cell + 1, " overlap: they lie on the same side of their common facet near ",
-                              point_text(x.data(), mesh.dimension())));
-      }
-  }
+  for (int node = 0; node < mesh.node_count(); ++node)
+    table.pairs(node, [&](int f, int g) {
+      const mesh::Facet a{f / facets, f % facets}, b{g / facets, g % facets};
+      if (!same_way(mesh, a, b)) return;
+      const mesh::Point x = mesh.facet_centre(a);
+      throw InputError(text(what, ": cells ", a.cell + 1, " and ", b.cell + 1, " overlap: they lie on the same side of their common facet near ",
+                            point_text(x.data(), mesh.dimension())));
+    });
 }
 
 struct PartCount {

@@ -69,8 +69,7 @@ TEST_CASE("straight simplices fill the same space") {
 }
 
 TEST_CASE("tetrahedra that are cut again and again keep their quality") {
-  // 12 (3V)^(2/3) / Σ l², 1 for a regular tetrahedron. The first cut makes octahedra, whose pieces are worse; with pieces numbered otherwise each further
-  // cut takes two fifths of it.
+  // 12 (3V)^(2/3) / Σ l², 1 for a regular tetrahedron.
   const auto worst = [](const Mesh& m) {
     double least = 1;
     for (int c = 0; c < m.cell_count(); ++c) {
@@ -84,10 +83,22 @@ TEST_CASE("tetrahedra that are cut again and again keep their quality") {
   };
   const double from[] = {0, 0, 0}, to[] = {1, 1, 1};
   const int cells[] = {1, 1, 1};
-  Mesh m = elasticity::refined(mesh::box(from, to, cells, Family::p1, std::array<mesh::Grading, 3>().data()));
-  const double once = worst(m);
-  for (int k = 0; k < 3; ++k) m = elasticity::refined(m);
-  CHECK(worst(m) == doctest::Approx(once).epsilon(0.25));
+  const Mesh box = mesh::box(from, to, cells, Family::p1, std::array<mesh::Grading, 3>().data());
+  Mesh m = box;
+  for (int k = 0; k < 4; ++k) m = elasticity::refined(m);
+  CHECK(worst(m) == doctest::Approx(worst(box)).epsilon(1e-12));  // they stay Kuhn's
+  for (const double shear : {-0.6, -0.3, 0.2, 0.5}) {
+    m = box;
+    mesh::transform(m, [&](const mesh::Point& x) { return mesh::Point{x[0] + shear * x[1] - 0.4 * shear * x[2], x[1] + shear * x[2], (1 + shear) * x[2]}; });
+    const double before = worst(m);
+    double once = 0;
+    for (int k = 0; k < 4; ++k) {
+      m = elasticity::refined(m);
+      if (k == 0) once = worst(m);
+    }
+    CHECK(once > 0.8 * before);  // an octahedron in four pieces
+    CHECK(worst(m) == doctest::Approx(once).epsilon(1e-9));
+  }
 }
 
 TEST_CASE("curved sides stay the same parabolas: all nodes on the boundary, and polygons through them come near as squares of their sides") {

@@ -1,18 +1,19 @@
 -- What contact costs on parts with free meshes: four of them from Gmsh, against one linear solve of the same bodies glued.
 --
---   OPENBLAS_NUM_THREADS=1 ./dotyk scripts/studies/bench/gmsh_parts.lua [NODES…] [PARTS…] [aggregates] [runs=5]
+--   OPENBLAS_NUM_THREADS=1 ./dotyk scripts/studies/bench/gmsh_parts.lua [NODES…] [PARTS…] [aggregates|factors] [runs=5]
 --
 -- A lug on a pin, a ball in a socket, a pipe's flange on its gasket and a wheel on a rail, P1, quarters or sectors of them, meshes that do not match;
--- glued, frictionless, and with Coulomb's coefficient 0.2; by the default method or, with the word aggregates, by algebraic multigrid. For each: seconds
--- of the solve, times the glued bodies', and iterations (of conjugate gradients, too, by multigrid); and the most memory that the process has had. The
--- three are taken in turn, runs= times, 1 unless given; medians of the seconds and of the runs' ratios.
--- NODES, 10000 unless given, are met to a tenth. PARTS: some of lug, ball, flange and wheel, all of them unless given.
+-- glued, frictionless, and with Coulomb's coefficient 0.2; by the default method, or by the one that a word names: aggregates (algebraic multigrid) or
+-- factors. For each: seconds of the solve, times the glued bodies', and iterations (of conjugate gradients, too, by multigrid); and the most memory that
+-- the process has had. The three are taken in turn, runs= times, 1 unless given; medians of the seconds and of the runs' ratios.
+-- NODES, 10000 unless given, are met to some hundredths. PARTS: some of lug, ball, flange and wheel, all of them unless given.
 
 local sizes <const>, names, method, runs = {}, {}, nil, 1
 for _, word in ipairs(arg) do
   if word:match "^runs=[1-9]%d*$" then runs = tonumber(word:match "%d+")
   elseif tonumber(word) then sizes[#sizes + 1] = tonumber(word)
   elseif word == "aggregates" then method = dotyk.solver.multigrid{ levels = "aggregates" }
+  elseif word == "factors" then method = dotyk.solver.pdas{ linear = "factor" }
   else names[#names + 1] = word end
 end
 if #sizes == 0 then sizes[1] = 10000 end
@@ -123,17 +124,24 @@ function parts.wheel(h, glued)
   return { wheel, rail }, { wheel:part("tread", near), rail:part("head", near) }
 end
 
--- 3. The greatest edge for so many nodes.
-local function with_nodes(part, count)
-  local h = 3
+-- 3. The greatest edge for so many nodes. Gmsh takes minutes for hundreds of thousands of them: from two coarser meshes, as nodes are nearly a power of the edge.
+local function tried(part, count)
+  local h, n = 3, 0
   for _ = 1, 6 do
-    local bodies <const> = parts[part](h)
-    local n = 0
-    for _, b in ipairs(bodies) do n = n + b.node_count end
+    n = 0
+    for _, b in ipairs((parts[part](h))) do n = n + b.node_count end
     if math.abs(n / count - 1) < 0.03 then break end
     h = h * (n / count)^0.4
   end
-  return h
+  return h, n
+end
+
+local coarse <const>, fine <const> = 6000, 20000
+local function with_nodes(part, count)
+  if count <= fine then return (tried(part, count)) end
+  local h1 <const>, n1 <const> = tried(part, coarse)
+  local h2 <const>, n2 <const> = tried(part, fine)
+  return h2 * (h2 / h1)^(math.log(count / n2) / math.log(n2 / n1))
 end
 
 -- 4. One solve.
