@@ -15,7 +15,7 @@ using algebra::Vector;
 using problem::Problem;
 
 constexpr int kLayers = 4;   ///< of neighbours, about the rows that bear
-constexpr int kSweeps = 10;  ///< up and down
+constexpr int kSweeps = 20;  ///< up and down
 /// Of the forces of rows with several branches. Where sweeps change more, the forces of contact balance what interpolation has left within a stiff body. Measured: 0.1 to 0.65 between
 /// bodies alike, 0.7 to 3 where one is a hundred or a thousand times stiffer.
 constexpr double kMostChange = 0.7;
