@@ -20,7 +20,7 @@ class FacetTable {
 
   explicit FacetTable(const Mesh& mesh)
       : mesh_(mesh), by_least_(mesh.node_count(), [&](auto&& put) {
-          for (int f = 0; f < count(); ++f) put(corners(f)[0], f);
+          for (int f = 0; f < count(); ++f) put(least_corner(f), f);
         }) {
     others_.resize(static_cast<std::size_t>(count()));
     parallel_ranges(mesh.node_count(), threads_for(mesh.cell_count(), kFewCells), [&](int, int first, int end) {
@@ -30,6 +30,8 @@ class FacetTable {
       }
     });
   }
+
+  explicit FacetTable(const Mesh&&) = delete;
 
   static Corners sorted(const int* nodes, int count) {
     Corners result{INT_MAX, INT_MAX, INT_MAX, INT_MAX};
@@ -66,6 +68,14 @@ class FacetTable {
   }
 
  private:
+  int least_corner(int facet) const {
+    const int facets = mesh_.topology().facets;
+    const Facet f{facet / facets, facet % facets};
+    int least = mesh_.facet_node(f, 0);
+    for (int k = 1; k < mesh_.topology().facet_corners; ++k) least = std::min(least, mesh_.facet_node(f, k));
+    return least;
+  }
+
   /// The corners but the least.
   struct Others {
     int first, second, third;

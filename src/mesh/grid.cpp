@@ -39,8 +39,8 @@ std::vector<double> ticks(double a, double b, int n, const Grading& grading, con
 namespace {
 
 /// How a box of the grid is made of cells: the corners of each as bits, bit k set at the upper end of axis k, in the order of the cell's
-/// nodes. Simplices: along the paths of axes from corner 0 to the last (Kuhn), each oriented positively, so that cut_at_nodes() cuts them as the grid of half the
-/// step is cut.
+/// nodes. Simplices: their corners lie on a path of axes from corner 0 to the last (Kuhn). Their order makes each cell positive, and cut_at_nodes() then cuts
+/// a grid into that of half the step.
 using Corners = std::vector<std::vector<int>>;
 
 const Corners& corners_of(int dimension, bool simplices) {

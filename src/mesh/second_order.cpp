@@ -146,14 +146,15 @@ Cut cut_of(const ElementTopology& whole, const ElementTopology& piece, PieceCorn
   return cut;
 }
 
-/// The ways to cut a cell. A tetrahedron has three, one along each diagonal of the octahedron in it: the second and the third are the first with corners 1, 2 and 3
-/// in turn.
+/// The ways to cut a cell. A tetrahedron has three: along each diagonal of the octahedron in it. The second way is the first after corners 1, 2 and 3 have become
+/// 2, 3 and 1. The third is that once more.
 std::vector<Cut> cuts_of(const ElementTopology& whole, const ElementTopology& piece) {
   if (whole.corners != whole.dimension + 1) return {cut_of(whole, piece, tensor_pieces(whole.dimension))};
   PieceCorners pieces = simplex_pieces(whole.dimension);
   std::vector<Cut> cuts{cut_of(whole, piece, pieces)};
-  while (whole.dimension == 3 && cuts.size() < 3) {
-    constexpr int kTurned[] = {0, 2, 3, 1, 6, 9, 7, 4, 5, 8};
+  if (whole.dimension == 2) return cuts;
+  for (int turn = 0; turn < 2; ++turn) {
+    constexpr int kTurned[] = {0, 2, 3, 1, 6, 9, 7, 4, 5, 8};  // what corners and the nodes between them become
     for (std::vector<int>& corners : pieces)
       for (int& k : corners) k = kTurned[k];
     cuts.push_back(cut_of(whole, piece, pieces));
@@ -161,14 +162,15 @@ std::vector<Cut> cuts_of(const ElementTopology& whole, const ElementTopology& pi
   return cuts;
 }
 
-/// Along the shortest diagonal the pieces degenerate least (Zhang, Houston J. Math. 21 (1995)). Of equal ones the first is taken, which keeps to few shapes.
+/// Along the shortest diagonal the pieces degenerate least (Zhang, Houston J. Math. 21 (1995)). The first one is kept unless another is clearly shorter: few
+/// shapes arise then, and a bent grid is cut as a straight one. All ranks that have a cell cut it alike, as they have the same coordinates.
 std::size_t best_cut(const Mesh& whole, int cell) {
   constexpr int kDiagonals[3][2] = {{6, 8}, {7, 5}, {4, 9}};
-  constexpr double kShorter = 1 - 1e-6;
+  constexpr double kShorter = 0.9;  // its square
+  const int* nodes = whole.cell(cell);
   std::size_t best = 0;
   double least = INFINITY;
   for (std::size_t k = 0; k < 3; ++k) {
-    const int* nodes = whole.cell(cell);
     const Point along = minus(whole.point(nodes[kDiagonals[k][0]]), whole.point(nodes[kDiagonals[k][1]]));
     if (const double square = dot(along, along); square < kShorter * least) best = k, least = square;
   }

@@ -66,21 +66,21 @@ void note_order(const std::vector<const Block*>& blocks, int order, std::vector<
     notes.push_back(text(greatest > least ? "some of " : "", "its elements are of order 1; nodes are put in the middle of their straight sides"));
 }
 
-/// Do the outward cycles of two facets with the same nodes run the same way round?
-bool same_way(const mesh::Mesh& mesh, mesh::Facet f, mesh::Facet g) {
+/// Do the corners of two facets that have the same ones follow each other in opposite ways?
+bool opposite(const mesh::Mesh& mesh, mesh::Facet f, mesh::Facet g) {
   const int n = mesh.topology().facet_corners, first = mesh.facet_node(f, 0);
   int at = 0;
   while (mesh.facet_node(g, at) != first) ++at;
-  return mesh.facet_node(g, (at + 1) % n) == mesh.facet_node(f, 1) && (n > 2 || at == 0);
+  return n == 2 ? at == 1 : mesh.facet_node(g, (at + n - 1) % n) == mesh.facet_node(f, 1);
 }
 
-/// Right-handed cells that share a facet lie on its two sides, unless the mesh is folded; so there are never three.
+/// Right-handed cells that share a facet lie on its two sides, unless the mesh is folded. Of three, two lie on one side.
 void refuse_overlaps(const mesh::Mesh& mesh, const mesh::FacetTable& table, const std::string& what) {
   const int facets = mesh.topology().facets;
   for (int node = 0; node < mesh.node_count(); ++node)
     table.pairs(node, [&](int f, int g) {
       const mesh::Facet a{f / facets, f % facets}, b{g / facets, g % facets};
-      if (!same_way(mesh, a, b)) return;
+      if (opposite(mesh, a, b)) return;
       const mesh::Point x = mesh.facet_centre(a);
       throw InputError(text(what, ": cells ", a.cell + 1, " and ", b.cell + 1, " overlap: they lie on the same side of their common facet near ",
                             point_text(x.data(), mesh.dimension())));
