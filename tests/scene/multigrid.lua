@@ -135,6 +135,8 @@ do
   local scenes <const> = include "../../scripts/lib/scale_scenes.lua"
   local s <const>, one <const> = S.multigrid{}:solve(scenes.cube(24, { friction = 0.3 })), S.multigrid{}:solve(scenes.cube(12, {}))
   check.that(s.converged and s.multigrid.newton <= 3, s.multigrid.newton)
+  local cut <const> = S.multigrid{}:solve(scenes.cube(16, { friction = 0.3, refine = 2 }))
+  check.that(cut.converged and cut.multigrid.newton <= 3, cut.multigrid.newton) -- four after ten sweeps
   check.that(one.converged and one.multigrid.newton == 1, one.multigrid.newton) -- two, not relaxed; of 24³ cells either way one
   -- Not beside a body a thousand times stiffer, where sweeps near the rows balance what interpolation left within that body.
   local apart <const> = S.multigrid{}:solve(scenes.blocks(16, { friction = 0.6, contrast = 1000 }))
