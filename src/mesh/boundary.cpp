@@ -6,12 +6,14 @@ namespace dotyk::mesh {
 
 std::vector<int> facet_neighbours(const Mesh& mesh) {
   const FacetTable table(mesh);
-  std::vector<int> neighbour(table.count(), -1);
-  const auto found = [&](int f, int g) {
-    if (neighbour[f] < 0) neighbour[f] = g / mesh.topology().facets;
+  const int facets = mesh.topology().facets;
+  std::vector<int> neighbour(static_cast<std::size_t>(mesh.cell_count()) * facets, -1);
+  const auto meet = [&](Facet f, Facet g) {
+    int& cell = neighbour[static_cast<std::size_t>(f.cell) * facets + f.local];
+    if (cell < 0) cell = g.cell;
   };
   parallel_ranges(mesh.node_count(), threads_for(mesh.cell_count(), FacetTable::kFewCells), [&](int, int first, int end) {
-    for (int node = first; node < end; ++node) table.pairs(node, [&](int f, int g) { found(f, g), found(g, f); });
+    for (int node = first; node < end; ++node) table.pairs(node, [&](Facet f, Facet g) { meet(f, g), meet(g, f); });
   });
   return neighbour;
 }

@@ -12,7 +12,7 @@
 
 namespace dotyk::mesh {
 
-/// The facets of a mesh's cells, facet l of cell c as number c · facets + l, found by their corners in any order. The mesh must outlive it.
+/// The facets of a mesh's cells, found by their corners in any order. The mesh must outlive the table.
 class FacetTable {
  public:
   using Corners = std::array<int, 4>;  ///< ascending; INT_MAX behind them
@@ -20,13 +20,13 @@ class FacetTable {
 
   explicit FacetTable(const Mesh& mesh)
       : mesh_(mesh), by_least_(mesh.node_count(), [&](auto&& put) {
-          for (int f = 0; f < count(); ++f) put(least_corner(f), f);
+          for (int f = 0; f < mesh.cell_count() * mesh.topology().facets; ++f) put(least_corner(f), f);
         }) {
-    others_.resize(static_cast<std::size_t>(count()));
+    others_.resize(static_cast<std::size_t>(mesh.cell_count()) * mesh.topology().facets);
     parallel_ranges(mesh.node_count(), threads_for(mesh.cell_count(), kFewCells), [&](int, int first, int end) {
       for (int node = first; node < end; ++node) {
         auto others = others_.begin() + by_least_.before(node);
-        for (const int f : by_least_[node]) *others++ = behind(corners(f));
+        for (const int f : by_least_[node]) *others++ = behind(corners_of(f));
       }
     });
   }
@@ -40,43 +40,42 @@ class FacetTable {
     return result;
   }
 
-  int count() const { return mesh_.cell_count() * mesh_.topology().facets; }
-  Corners corners(int facet) const {
-    const int facets = mesh_.topology().facets, corners = mesh_.topology().facet_corners;
-    int nodes[4];
-    for (int k = 0; k < corners; ++k) nodes[k] = mesh_.facet_node({facet / facets, facet % facets}, k);
-    return sorted(nodes, corners);
-  }
-
-  /// Calls visit(f, g) for all two facets f < g with the same corners, of which this node is the least.
+  /// Calls visit(f, g) for each two facets f < g that have the same corners, of which this node is the least.
   template <class Visit>
   void pairs(int node, const Visit& visit) const {
     const std::span<const int> here = by_least_[node];
     const auto others = others_.begin() + by_least_.before(node);
     for (std::size_t a = 0; a < here.size(); ++a)
       for (std::size_t b = a + 1; b < here.size(); ++b)
-        if (others[a] == others[b]) visit(here[a], here[b]);
+        if (others[a] == others[b]) visit(facet(here[a]), facet(here[b]));
   }
 
-  /// Calls visit(facet) for each with these corners, ascending: one on the boundary, two within the mesh.
+  /// Calls visit(facet) for each facet with these corners, ascending: one on the boundary, two within the mesh.
   template <class Visit>
   void with(const Corners& corners, const Visit& visit) const {
     const std::span<const int> here = by_least_[corners[0]];
     const auto others = others_.begin() + by_least_.before(corners[0]);
     for (std::size_t k = 0; k < here.size(); ++k)
-      if (others[k] == behind(corners)) visit(here[k]);
+      if (others[k] == behind(corners)) visit(facet(here[k]));
   }
 
  private:
-  int least_corner(int facet) const {
-    const int facets = mesh_.topology().facets;
-    const Facet f{facet / facets, facet % facets};
+  /// The facet of a number: facet l of cell c has the number c · facets + l.
+  Facet facet(int number) const { return {number / mesh_.topology().facets, number % mesh_.topology().facets}; }
+  int least_corner(int number) const {
+    const Facet f = facet(number);
     int least = mesh_.facet_node(f, 0);
     for (int k = 1; k < mesh_.topology().facet_corners; ++k) least = std::min(least, mesh_.facet_node(f, k));
     return least;
   }
+  Corners corners_of(int number) const {
+    const Facet f = facet(number);
+    int nodes[4];
+    for (int k = 0; k < mesh_.topology().facet_corners; ++k) nodes[k] = mesh_.facet_node(f, k);
+    return sorted(nodes, mesh_.topology().facet_corners);
+  }
 
-  /// The corners but the least.
+  /// All corners of a facet except the least one, ascending.
   struct Others {
     int first, second, third;
     bool operator==(const Others&) const = default;
@@ -84,8 +83,8 @@ class FacetTable {
   static Others behind(const Corners& corners) { return {corners[1], corners[2], corners[3]}; }
 
   const Mesh& mesh_;
-  Buckets by_least_;
-  std::vector<Others> others_;  ///< of the facets of by_least_, one bucket after another: searched without a jump in memory
+  Buckets by_least_;  ///< numbers of facets, by their least corner
+  std::vector<Others> others_;  ///< in the order of by_least_, so that a bucket is searched without a jump in memory
 };
 
 }  // namespace dotyk::mesh

@@ -39,8 +39,8 @@ std::vector<double> ticks(double a, double b, int n, const Grading& grading, con
 namespace {
 
 /// How a box of the grid is made of cells: the corners of each as bits, bit k set at the upper end of axis k, in the order of the cell's
-/// nodes. Simplices: their corners lie on a path of axes from corner 0 to the last (Kuhn). Their order makes each cell positive, and cut_at_nodes() then cuts
-/// a grid into that of half the step.
+/// nodes. Simplices are Kuhn's: the corners of each lie on a path along the axes from corner 0 to the last one. They are listed in an order that makes each
+/// cell positive. With this order cut_at_nodes() cuts a grid into the grid of half the step.
 using Corners = std::vector<std::vector<int>>;
 
 const Corners& corners_of(int dimension, bool simplices) {

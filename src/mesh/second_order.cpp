@@ -129,7 +129,7 @@ Facet facet_of_pieces(const ElementTopology& piece, const PieceCorners& pieces, 
   throw std::logic_error("no piece of a cell has this piece of its facet");
 }
 
-/// How a cell is cut: its pieces, and for each of its facets the facets of pieces that make it up.
+/// A way to cut a cell: its pieces, and for each of its facets the facets of pieces that fill it.
 struct Cut {
   PieceCorners pieces;
   std::vector<std::vector<Facet>> within;
@@ -162,8 +162,9 @@ std::vector<Cut> cuts_of(const ElementTopology& whole, const ElementTopology& pi
   return cuts;
 }
 
-/// Along the shortest diagonal the pieces degenerate least (Zhang, Houston J. Math. 21 (1995)). The first one is kept unless another is clearly shorter: few
-/// shapes arise then, and a bent grid is cut as a straight one. All ranks that have a cell cut it alike, as they have the same coordinates.
+/// Which of the three ways cuts a tetrahedron along its shortest diagonal: its pieces degenerate least (Zhang, Houston J. Math. 21 (1995)). The first way is
+/// taken unless another diagonal is clearly shorter. Then pieces have few shapes, and a bent grid is cut like a straight one. All ranks that have a cell cut it
+/// in the same way, because they have the same coordinates.
 std::size_t best_cut(const Mesh& whole, int cell) {
   constexpr int kDiagonals[3][2] = {{6, 8}, {7, 5}, {4, 9}};
   constexpr double kShorter = 0.9;  // its square

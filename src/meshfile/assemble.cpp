@@ -66,7 +66,7 @@ void note_order(const std::vector<const Block*>& blocks, int order, std::vector<
     notes.push_back(text(greatest > least ? "some of " : "", "its elements are of order 1; nodes are put in the middle of their straight sides"));
 }
 
-/// Do the corners of two facets that have the same ones follow each other in opposite ways?
+/// Two facets have the same corners: do they list them in opposite directions?
 bool opposite(const mesh::Mesh& mesh, mesh::Facet f, mesh::Facet g) {
   const int n = mesh.topology().facet_corners, first = mesh.facet_node(f, 0);
   int at = 0;
@@ -76,13 +76,11 @@ bool opposite(const mesh::Mesh& mesh, mesh::Facet f, mesh::Facet g) {
 
 /// Right-handed cells that share a facet lie on its two sides, unless the mesh is folded. Of three, two lie on one side.
 void refuse_overlaps(const mesh::Mesh& mesh, const mesh::FacetTable& table, const std::string& what) {
-  const int facets = mesh.topology().facets;
   for (int node = 0; node < mesh.node_count(); ++node)
-    table.pairs(node, [&](int f, int g) {
-      const mesh::Facet a{f / facets, f % facets}, b{g / facets, g % facets};
-      if (opposite(mesh, a, b)) return;
-      const mesh::Point x = mesh.facet_centre(a);
-      throw InputError(text(what, ": cells ", a.cell + 1, " and ", b.cell + 1, " overlap: they lie on the same side of their common facet near ",
+    table.pairs(node, [&](mesh::Facet f, mesh::Facet g) {
+      if (opposite(mesh, f, g)) return;
+      const mesh::Point x = mesh.facet_centre(f);
+      throw InputError(text(what, ": cells ", f.cell + 1, " and ", g.cell + 1, " overlap: they lie on the same side of their common facet near ",
                             point_text(x.data(), mesh.dimension())));
     });
 }
@@ -92,16 +90,17 @@ struct PartCount {
 };
 
 /// The boundary facets that the elements of the block are, added to `part`.
-PartCount add_facets(const Block& block, const mesh::FacetTable& table, int facets, const std::vector<int>& number, std::vector<mesh::Facet>& part) {
+PartCount add_facets(const Block& block, const mesh::FacetTable& table, const std::vector<int>& number, std::vector<mesh::Facet>& part) {
   const int each = kind(block.shape).nodes;
   PartCount left_out;
   for (std::size_t k = 0; k < block.nodes.size(); k += each) {
     int nodes[4];
     bool here = true;
     for (int i = 0; i < each; ++i) here = (nodes[i] = number[block.nodes[k + i]]) >= 0 && here;
-    int count = 0, found = 0;
-    if (here) table.with(mesh::FacetTable::sorted(nodes, each), [&](int f) { found = f, ++count; });
-    if (count == 1) part.push_back({found / facets, found % facets});
+    int count = 0;
+    mesh::Facet found{};
+    if (here) table.with(mesh::FacetTable::sorted(nodes, each), [&](mesh::Facet f) { found = f, ++count; });
+    if (count == 1) part.push_back(found);
     else ++(count == 0 ? left_out.elsewhere : left_out.within);
   }
   return left_out;
@@ -114,7 +113,7 @@ void add_parts(const Contents& c, const mesh::FacetTable& table, const std::vect
     if (kind(b.shape).dimension != mesh.dimension() - 1) continue;
     for (const int g : b.groups) {
       std::vector<mesh::Facet>& part = mesh.parts[c.groups[g].name];
-      const PartCount here = add_facets(b, table, mesh.topology().facets, number, part);
+      const PartCount here = add_facets(b, table, number, part);
       left_out[c.groups[g].name].within += here.within, left_out[c.groups[g].name].elsewhere += here.elsewhere;
     }
   }

@@ -71,12 +71,12 @@ TEST_CASE("straight simplices fill the same space") {
   }
 }
 
-TEST_CASE("a box of tetrahedra is cut into that of half the step, a bent one likewise") {
+TEST_CASE("a box of tetrahedra is cut into that of half the step, a sheared one likewise") {
   const double from[] = {0, 0, 0}, to[] = {1, 2, 3};
-  const auto box = [&](int times, double bend) {
+  const auto box = [&](int times, double shear) {
     const int cells[] = {2 * times, times, 3 * times};
     Mesh m = mesh::box(from, to, cells, Family::p1, std::array<mesh::Grading, 3>().data());
-    mesh::transform(m, [&](const mesh::Point& x) { return mesh::Point{x[0] + bend * x[1], x[1] - 0.5 * bend * x[2], x[2]}; });
+    mesh::transform(m, [&](const mesh::Point& x) { return mesh::Point{x[0] + shear * x[1], x[1] - 0.5 * shear * x[2], x[2]}; });
     return m;
   };
   const auto cells = [](const Mesh& m) {  // each as its nodes' places, in units of 1e-6
@@ -91,7 +91,7 @@ TEST_CASE("a box of tetrahedra is cut into that of half the step, a bent one lik
     }
     return all;
   };
-  for (const double bend : {0.0, 1e-3, 0.02}) CHECK(cells(elasticity::refined(elasticity::refined(box(1, bend)))) == cells(box(4, bend)));
+  for (const double shear : {0.0, 1e-3, 0.02}) CHECK(cells(elasticity::refined(elasticity::refined(box(1, shear)))) == cells(box(4, shear)));
 }
 
 TEST_CASE("tetrahedra are cut along the shortest diagonal, and keep their quality when cut again and again") {

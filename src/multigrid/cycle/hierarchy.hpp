@@ -47,7 +47,7 @@ class Hierarchy {
   void coarsen();
   void compute_coarser();
   void restrict_load(Mat P);
-  /// Levels of the first `count` coarser meshes. S: the unknowns, of displacements, all slots; null where they are the same.
+  /// Adds a level for each of the first `count` coarser meshes. S takes displacements to unknowns, at all slots; null where the two are the same.
   void take_functions(Mat S, int count);
   /// Levels of aggregates below a matrix of the near kernel that Piece::modes are.
   void take_aggregates(OwnedMat of);

@@ -10,10 +10,10 @@ namespace dotyk::multigrid {
 
 /// Joins the rows of all ranks, as if one rank had them all. Collective.
 HalfRows all_rows(const Ranks& ranks, const HalfRows& own);
-/// The same for the functions of a coarser mesh.
+/// Joins the functions of a coarser mesh that the ranks have. Collective.
 OwnFunctions all_rows(const Ranks& ranks, const OwnFunctions& own);
 
-/// The numbers `below`, without the spare ones, and `diagonal` of the HalfRows that all_rows() makes.
+/// What all_rows() gives as HalfRows::below, without its spare numbers, and as HalfRows::diagonal.
 struct AllNumbers {
   std::vector<double> below, diagonal;
 };

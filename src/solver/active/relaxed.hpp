@@ -6,7 +6,7 @@
 
 namespace dotyk::solver {
 
-/// Improves a state near the rows that bear, by twenty symmetric sweeps of Gauss and Seidel over the unknowns of these rows and four layers of neighbours,
+/// Improves a state near the rows that bear, by twenty symmetric Gauss-Seidel sweeps over the unknowns of these rows and four layers of neighbours,
 /// each row by its law: nonlinear smoothing, as in monotone multigrid (Kornhuber, Numer. Math. 69 (1994)). A state interpolated from a coarser mesh is
 /// wrong where contact, stick or slip end between the nodes of that mesh. Unknowns farther away do not move; their rows, and rows without an unknown of
 /// their own, keep λ. Gives nothing where the forces of rows would change by more than 0.7
