@@ -110,6 +110,25 @@ TEST_CASE("cells that lie on one side of their common facet overlap, whichever w
   check_refused(solid, {}, "cells 1 and 2 overlap");
   solid.points[14] = -0.7;
   CHECK(assemble(solid, {}, "f").mesh.cell_count() == 2);
+  solid.points.insert(solid.points.end(), {0.3, 0.3, 0.5});  // one on either side and one more
+  solid.blocks = {{Shape::tetrahedron, {}, {0, 1, 2, 3, 0, 2, 1, 4, 0, 1, 2, 5}}};
+  check_refused(solid, {}, "cells 1 and 3 overlap");
+}
+
+TEST_CASE("hexahedra overlap if their common facet has two orders of its corners") {
+  // The corners of a regular tetrahedron: seen along z and along x they are the corners of two squares, A C D B and A C B D.
+  Contents c;
+  c.points = {1, 1, 1, -1, 1, -1, -1, -1, 1, 1, -1, -1};                               // A, C, D, B
+  c.points.insert(c.points.end(), {1, 1, 3, -1, 1, 3, -1, -1, 3, 1, -1, 3});           // above the first square, at z = 3
+  c.points.insert(c.points.end(), {3, 1, 1, 3, 1, -1, 3, -1, -1, 3, -1, 1});           // beside the second one, at x = 3
+  const std::vector<int> upper{0, 1, 2, 3, 4, 5, 6, 7}, right{0, 1, 3, 2, 8, 9, 10, 11};
+  for (const auto& cell : {upper, right}) {
+    c.blocks = {{Shape::hexahedron, {}, cell}};
+    const mesh::Mesh alone = assemble(c, {}, "f").mesh;
+    CHECK(mesh::least_jacobian(alone, 0) > 0);
+  }
+  c.blocks = {{Shape::hexahedron, {}, upper}, {Shape::hexahedron, {}, right}};
+  check_refused(c, {}, "cells 1 and 2 overlap");
 }
 
 TEST_CASE("a plane mesh loses a constant z; a surface in space is refused") {

@@ -127,9 +127,10 @@ bool Cycle::take_last() {
 bool Cycle::take_levels(const std::vector<int>& shared) {
   double of_sweeps = 0;
   for (std::size_t l = 0; l < levels_.size(); ++l) {
-    l == 0 ? levels_[l].sweeps.set(shared) : levels_[l].sweeps.set();
+    levels_[l].sweeps.set(hierarchy_.changed(static_cast<int>(l)), l == 0 ? shared : std::vector<int>());
     of_sweeps += levels_[l].sweeps.bytes();
   }
+  hierarchy_.forget_changes();
   if (!ranks_.all(shared_.set(hierarchy_.matrix(0), shared))) return false;
   if (!ranks_.all(take_last())) return false;
   bytes_ = ranks_.sum(hierarchy_.bytes() + of_sweeps + (whole_ ? whole_->bytes_ : 0));

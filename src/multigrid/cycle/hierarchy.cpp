@@ -178,6 +178,7 @@ void Hierarchy::coarsen() {
     take(piece_.first);
     if (end_in_aggregates) {
       fill_coarse();
+      forget_changes();
       take_aggregates(whole(*matrices_.back()));
     }
   } else if (S) {
@@ -316,9 +317,12 @@ void Hierarchy::fill_coarse() {
   for (std::size_t l = 0; l < products_.size(); ++l) {
     const std::vector<char> computed = products_[l].compute(matrix(l), interpolations_[l], matrix(l + 1), pending_[l]);
     make_definite(matrix(l + 1), computed);
-    std::ranges::fill(pending_[l], 0);
     for (std::size_t i = 0; l + 1 < products_.size() && i < computed.size(); ++i) pending_[l + 1][i] |= computed[i];
   }
+}
+
+void Hierarchy::forget_changes() {
+  for (std::vector<char>& rows : pending_) std::ranges::fill(rows, 0);
 }
 
 double Hierarchy::bytes() const {

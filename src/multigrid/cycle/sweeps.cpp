@@ -2,22 +2,34 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace dotyk::multigrid {
 
-void Sweeps::set(const std::vector<int>& solved) {
+void Sweeps::set(const std::vector<char>& changed, const std::vector<int>& solved) {
+  const std::size_t square = static_cast<std::size_t>(A_.block()) * A_.block();
   double greatest = 0;
   for (int row = 0; row < A_.rows(); ++row) greatest = std::max(greatest, A_.diagonal(row));
-  unit_ = std::exp2(std::ilogb(greatest > 0 && std::isfinite(greatest) ? greatest : 1));
-  const HalfBlocks<double> of = A_.half();
-  const std::size_t square = static_cast<std::size_t>(of.size) * of.size, count = static_cast<std::size_t>(of.starts.back()) * square;
-  below_.resize(count + kSpare);
-  for (std::size_t k = 0; k < count; ++k) below_[k] = static_cast<float>(of.below[k] / unit_);
-  inverse_.resize(static_cast<std::size_t>(of.nodes()) * square);
-  for (std::size_t at = 0; at < inverse_.size(); at += square) invert(of.size, of.diagonal + at, inverse_.data() + at);
+  const double unit = std::exp2(std::ilogb(greatest > 0 && std::isfinite(greatest) ? greatest : 1));
+  const bool all = below_.empty() || unit != unit_;
+  unit_ = unit;
+  below_.resize(static_cast<std::size_t>(A_.half().starts.back()) * square + kSpare);
+  inverse_.resize(static_cast<std::size_t>(A_.nodes()) * square);
+  const auto is_due = [&](int node) { return all || std::any_of(changed.begin() + node * A_.block(), changed.begin() + (node + 1) * A_.block(), std::identity()); };
+  for (int node = 0; node < A_.nodes(); ++node)
+    if (is_due(node)) take(node);
+  if (A_.ranks().all(solved == solved_ && std::ranges::none_of(A_.border(), is_due))) return;
+  solved_ = solved;
   const std::vector<NodeBlock> damped = damped_blocks(A_, solved);
-  for (std::size_t k = 0; k < damped.size(); ++k) invert(of.size, damped[k].data(), inverse_.data() + A_.border()[k] * square);
+  for (std::size_t k = 0; k < damped.size(); ++k) invert(A_.block(), damped[k].data(), inverse_.data() + A_.border()[k] * square);
   take_border();
+}
+
+void Sweeps::take(int node) {
+  const HalfBlocks<double> of = A_.half();
+  const std::ptrdiff_t square = of.size * of.size;
+  for (std::ptrdiff_t k = of.starts[node] * square; k < of.starts[node + 1] * square; ++k) below_[k] = static_cast<float>(of.below[k] / unit_);
+  invert(of.size, of.diagonal + node * square, inverse_.data() + node * square);
 }
 
 HalfBlocks<float> Sweeps::half() const {

@@ -20,8 +20,9 @@ class Sweeps {
     if (!A.ranks().alone()) moved_.emplace(A.block(), A.nodes());
   }
 
-  /// Takes the numbers of A. `solved`: rows of this rank, counted from its first, ascending, that are solved exactly as well.
-  void set(const std::vector<int>& solved = {});
+  /// Takes the numbers of A; after the first time those of blocks with a row in `changed` alone, flags of own rows. `solved`: rows of this rank, counted from its
+  /// first, ascending, that are solved exactly as well.
+  void set(const std::vector<char>& changed, const std::vector<int>& solved);
   /// x = M⁻¹ b where M is a sweep, and left = b − A x, which the sweep computes on its way. `left` may be `b`.
   void forward(const double* b, double* x, double* left);
   /// x += M⁻ᵀ (b − A x).
@@ -31,6 +32,7 @@ class Sweeps {
  private:
   HalfBlocks<float> half() const;
   HalfBlocks<float> border() const;  ///< rows of the border's nodes, in own columns
+  void take(int node);
   void take_border();
   /// residual −= A x in columns of other ranks.
   void take_off(PaddedVector& residual, const PaddedVector& x);
@@ -39,6 +41,7 @@ class Sweeps {
   double unit_ = 1;  ///< of below_ and border_: a power of two that brings these numbers to about 1, within the range of floats
   std::vector<float> below_;
   std::vector<double> inverse_;
+  std::vector<int> solved_;
   std::optional<PaddedVector> moved_;  ///< zero but at the border; where there are several ranks
   struct {
     std::vector<int> starts, columns;

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <cstring>
 
-// Sweeps over some nodes have all blocks of their rows in place of L. Else each block of L is read once. It serves its row, and by its transpose the rows above it. Rows of blocks are read as vectors of the compiler's, with lanes
-// beyond a node's numbers. The results in these lanes go into padding, which is never read.
+// Each block of L is read once. It serves its row, and by its transpose the rows above it. Sweeps over some nodes are given all blocks of these rows instead.
+// Rows of blocks are read as vectors of the compiler's, with lanes beyond a node's numbers. The results in these lanes go into padding, which is never read.
 namespace dotyk::multigrid {
 
 namespace {
