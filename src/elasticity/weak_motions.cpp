@@ -211,19 +211,19 @@ DenseMatrix energies(const mesh::Mesh& mesh, const MaterialField& material, cons
   Square sum = parallel_sum(std::ssize(volumes.held), kFewCells, [&](int first, int end) {
     Square of_cells = Square::Zero();
     double x[E::nodes][d], k[E::nodes][E::nodes][d][d];
+    Eigen::Matrix<double, d, count> F[E::nodes];
     for (int h = first; h < end; ++h) {
       const int* n = mesh.cell(volumes.held[h]);
       cell_coordinates<E>(mesh, volumes.held[h], x);
       stiffness<E>(x, material.at(volumes.held[h]), k);
-      Eigen::Matrix<double, E::nodes * d, E::nodes * d> whole;
-      Eigen::Matrix<double, E::nodes * d, count> F;
       for (int a = 0; a < E::nodes; ++a)
-        for (int i = 0; i < d; ++i) {
-          F.row(a * d + i) = at(n[a], i);
-          for (int b = 0; b <= a; ++b)
-            for (int j = 0; j < d; ++j) whole(a * d + i, b * d + j) = whole(b * d + j, a * d + i) = k[a][b][i][j];
+        for (int i = 0; i < d; ++i) F[a].row(i) = at(n[a], i);
+      for (int a = 0; a < E::nodes; ++a)
+        for (int b = 0; b <= a; ++b) {
+          const Square of_pair = F[a].transpose() * Eigen::Map<const Eigen::Matrix<double, d, d, Eigen::RowMajor>>(k[a][b][0]) * F[b];
+          of_cells += of_pair;
+          if (a != b) of_cells += of_pair.transpose();
         }
-      of_cells += F.transpose().lazyProduct(whole.lazyProduct(F).eval());
     }
     return of_cells;
   });

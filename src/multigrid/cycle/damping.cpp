@@ -78,11 +78,12 @@ Ritz greatest_ritz(const std::vector<double>& diagonal, const std::vector<double
   return {solver.eigenvalues()[count - 1], beside.back() * std::abs(solver.eigenvectors()(count - 1, count - 1))};
 }
 
-/// The greatest eigenvalue c, estimated from above, or a number below 1 where c is. Collective.
+/// The greatest eigenvalue c, estimated from above; if c is below 1, some number below 1. Collective.
 double greatest_coupling(HalfMatrix& A, const std::vector<NodeBlock>& weighted) {
   constexpr int kMostSteps = 60;  // of Lanczos, from numbers at random; 8 to 25 suffice for all that was tried
   constexpr double kNear = 0.03, kAbove = 0.01;  // relative; a Ritz value comes from below
-  // Below 1 it need not be known. Where all others are at most 0.6, an eigenvalue of 1 shows within 8 steps: Chebyshev's polynomial of that degree is 3000 there.
+  // Below 1 its value does not matter. If all other eigenvalues are within ±0.6, Lanczos's method finds one of 1 within 8 steps: Chebyshev's polynomial of degree 8
+  // for that interval is 3000 at 1.
   constexpr int kTelling = 8;
   const Ranks& ranks = A.ranks();
   Between between(A, weighted);

@@ -33,7 +33,8 @@ class Hierarchy {
   const AllOwnFunctions& functions() const { return piece_.functions; }
   int levels() const { return static_cast<int>(matrices_.size()); }
   HalfMatrix& matrix(int level) { return *matrices_[level]; }             ///< from 0, the finest
-  const std::vector<char>& changed(int level) const { return pending_[level]; }  ///< flags of own rows with new numbers; not of the last level
+  /// Flags of own rows whose numbers, or those of their interpolation, are new since forget_changes(). Not of the last level.
+  const std::vector<char>& changed(int level) const { return pending_[level]; }
   void forget_changes();
   Mat interpolation(int level) const { return interpolations_[level]; }   ///< from `level` + 1 to `level`
   int meshes() const { return static_cast<int>(piece_.own.size()) - 1; }  ///< coarser ones, those that last_for_all() has among them
@@ -72,7 +73,7 @@ class Hierarchy {
   std::vector<Galerkin> products_;              // of each interpolation
   std::vector<char> empty_;                     // own rows of the finest interpolation that are empty now
   std::map<int, std::vector<double>> emptied_;  // the numbers that they had
-  std::vector<std::vector<char>> pending_;      // of each level but the last, flags of own rows with numbers that nothing has taken yet
+  std::vector<std::vector<char>> pending_;      // of each level but the last, flags of own rows, see changed()
 };
 
 }  // namespace dotyk::multigrid

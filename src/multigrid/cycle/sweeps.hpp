@@ -20,8 +20,8 @@ class Sweeps {
     if (!A.ranks().alone()) moved_.emplace(A.block(), A.nodes());
   }
 
-  /// Takes the numbers of A; after the first time those of blocks with a row in `changed` alone, flags of own rows. `solved`: rows of this rank, counted from its
-  /// first, ascending, that are solved exactly as well.
+  /// Takes the numbers of A: all of them the first time, later those of the own rows that `changed` flags. `solved`: rows of this rank, counted from its first,
+  /// ascending, that are solved exactly as well.
   void set(const std::vector<char>& changed, const std::vector<int>& solved);
   /// x = M⁻¹ b where M is a sweep, and left = b − A x, which the sweep computes on its way. `left` may be `b`.
   void forward(const double* b, double* x, double* left);
@@ -32,7 +32,7 @@ class Sweeps {
  private:
   HalfBlocks<float> half() const;
   HalfBlocks<float> border() const;  ///< rows of the border's nodes, in own columns
-  void take(int node);
+  void take(int node);  ///< the numbers of its blocks
   void take_border();
   /// residual −= A x in columns of other ranks.
   void take_off(PaddedVector& residual, const PaddedVector& x);
