@@ -76,7 +76,7 @@ local function seconds(make, method)
     if not ok or not s.converged then return nil end
     best, used, count = math.min(best, s.time.total), used + s.time.total, count + 1
     -- The first of several pays for memory that the process has not used before.
-    if (used > 0.5 and count > 1) or used > 20 or count == 5 then return best + (s.method == "multigrid" and opening or 0), s.unknowns, s.method end
+    if (used > 2 and count > 2) or used > 20 or count == 5 then return best + (s.method == "multigrid" and opening or 0), s.unknowns, s.method end
   until false
 end
 do

@@ -103,7 +103,7 @@ double edges(const mesh::Mesh& mesh) {
 
 Counts counts(const mesh::Mesh& mesh, std::size_t boundary) {
   const mesh::ElementTopology& t = mesh.topology();
-  Counts n{0, edges(mesh), 0, static_cast<double>(mesh.cell_count()), t.dimension == 2, t.corners == t.dimension + 1};
+  Counts n{0, edges(mesh), 0, static_cast<double>(mesh.cell_count()), t.dimension == 2, t.simplex()};
   std::vector<char> corner(static_cast<std::size_t>(mesh.node_count()), 0);
   for (int c = 0; c < mesh.cell_count(); ++c)
     for (int k = 0; k < t.corners; ++k) corner[mesh.cell(c)[k]] = 1;

@@ -218,14 +218,14 @@ DenseMatrix energies(const mesh::Mesh& mesh, const MaterialField& material, cons
       stiffness<E>(x, material.at(volumes.held[h]), k);
       for (int a = 0; a < E::nodes; ++a)
         for (int i = 0; i < d; ++i) F[a].row(i) = at(n[a], i);
-      for (int a = 0; a < E::nodes; ++a)
-        for (int b = 0; b <= a; ++b) {
-          const Square of_pair = F[a].transpose() * Eigen::Map<const Eigen::Matrix<double, d, d, Eigen::RowMajor>>(k[a][b][0]) * F[b];
-          of_cells += of_pair;
-          if (a != b) of_cells += of_pair.transpose();
-        }
+      for (int a = 0; a < E::nodes; ++a) {  // k has the pairs b ≤ a
+        const auto times = [&](int b) -> Eigen::Matrix<double, d, count> { return Eigen::Map<const Eigen::Matrix<double, d, d, Eigen::RowMajor>>(k[a][b][0]) * F[b]; };
+        Eigen::Matrix<double, d, count> forces = times(a) / 2;
+        for (int b = 0; b < a; ++b) forces += times(b);
+        of_cells += F[a].transpose() * forces;
+      }
     }
-    return of_cells;
+    return Square(of_cells + of_cells.transpose());
   });
   sum(count - 1, count - 1) += volumes.dilated / (frame.size * frame.size);
   for (const FacetSpring& spring : springs.facets)

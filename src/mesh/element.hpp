@@ -35,6 +35,8 @@ struct ElementTopology {
   int corners = nodes;
   int facet_corners = nodes_per_facet;
   std::vector<std::vector<int>> between = {};  ///< node corners + k of a straight cell is the mean of these corners
+
+  bool simplex() const { return corners == dimension + 1; }
 };
 
 const ElementTopology& topology(Element element);

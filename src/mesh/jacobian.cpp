@@ -130,7 +130,7 @@ double tensor_jacobian(const Mesh& mesh, const int* n) {
 double least_jacobian(const Mesh& mesh, int c) {
   const ElementTopology& t = mesh.topology();
   const int* nodes = mesh.cell(c);
-  if (t.corners == t.dimension + 1) return simplex_jacobian(mesh, nodes);
+  if (t.simplex()) return simplex_jacobian(mesh, nodes);
   if (t.order == 2) return tensor_jacobian(mesh, nodes);
   return t.dimension == 2 ? quad_jacobian(mesh, nodes) : hex_jacobian(mesh, nodes);
 }

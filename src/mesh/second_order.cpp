@@ -137,10 +137,9 @@ struct Cut {
 };
 
 Cut cut_of(const ElementTopology& whole, const ElementTopology& piece, PieceCorners pieces) {
-  const bool simplex = whole.corners == whole.dimension + 1;
   Cut cut{std::move(pieces), std::vector<std::vector<Facet>>(static_cast<std::size_t>(whole.facets))};
   for (std::size_t l = 0; l < cut.within.size(); ++l)
-    for (std::vector<int> corners : whole.dimension == 2 || simplex ? simplex_pieces(whole.dimension - 1) : tensor_pieces(2)) {
+    for (std::vector<int> corners : whole.dimension == 2 || whole.simplex() ? simplex_pieces(whole.dimension - 1) : tensor_pieces(2)) {
       for (int& k : corners) k = whole.facet_nodes[l][k];
       cut.within[l].push_back(facet_of_pieces(piece, cut.pieces, corners));
     }
@@ -150,7 +149,7 @@ Cut cut_of(const ElementTopology& whole, const ElementTopology& piece, PieceCorn
 /// The ways to cut a cell. A tetrahedron has three: along each diagonal of the octahedron in it. The second way is the first after corners 1, 2 and 3 have become
 /// 2, 3 and 1. The third is that once more.
 std::vector<Cut> cuts_of(const ElementTopology& whole, const ElementTopology& piece) {
-  if (whole.corners != whole.dimension + 1) return {cut_of(whole, piece, tensor_pieces(whole.dimension))};
+  if (!whole.simplex()) return {cut_of(whole, piece, tensor_pieces(whole.dimension))};
   PieceCorners pieces = simplex_pieces(whole.dimension);
   std::vector<Cut> cuts{cut_of(whole, piece, pieces)};
   if (whole.dimension == 2) return cuts;

@@ -101,7 +101,7 @@ TEST_CASE("cells that lie on one side of their common facet overlap, whichever w
     c.blocks = {{Shape::triangle, {}, {0, 1, 2}}, {Shape::triangle, {}, second}};
     check_refused(c, {}, "cells 1 and 2 overlap: they lie on the same side of their common facet near (0.5, 0)");
   }
-  c.points.insert(c.points.end(), {0.5, -1, 0});  // one on either side and one more
+  c.points.insert(c.points.end(), {0.5, -1, 0});  // the third cell lies on the side of the first
   c.blocks = {{Shape::triangle, {}, {0, 1, 2, 1, 0, 4, 0, 1, 3}}};
   check_refused(c, {}, "overlap");
   Contents solid;
@@ -110,13 +110,13 @@ TEST_CASE("cells that lie on one side of their common facet overlap, whichever w
   check_refused(solid, {}, "cells 1 and 2 overlap");
   solid.points[14] = -0.7;
   CHECK(assemble(solid, {}, "f").mesh.cell_count() == 2);
-  solid.points.insert(solid.points.end(), {0.3, 0.3, 0.5});  // one on either side and one more
+  solid.points.insert(solid.points.end(), {0.3, 0.3, 0.5});  // the third cell lies on the side of the first
   solid.blocks = {{Shape::tetrahedron, {}, {0, 1, 2, 3, 0, 2, 1, 4, 0, 1, 2, 5}}};
   check_refused(solid, {}, "cells 1 and 3 overlap");
 }
 
 TEST_CASE("hexahedra overlap if their common facet has two orders of its corners") {
-  // The corners of a regular tetrahedron: seen along z and along x they are the corners of two squares, A C D B and A C B D.
+  // A, B, C, D are the corners of a regular tetrahedron. Seen along z they are a square with the corners in the order A C D B, seen along x in the order A C B D.
   Contents c;
   c.points = {1, 1, 1, -1, 1, -1, -1, -1, 1, 1, -1, -1};                               // A, C, D, B
   c.points.insert(c.points.end(), {1, 1, 3, -1, 1, 3, -1, -1, 3, 1, -1, 3});           // above the first square, at z = 3

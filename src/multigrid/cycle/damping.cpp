@@ -78,13 +78,10 @@ Ritz greatest_ritz(const std::vector<double>& diagonal, const std::vector<double
   return {solver.eigenvalues()[count - 1], beside.back() * std::abs(solver.eigenvectors()(count - 1, count - 1))};
 }
 
-/// The greatest eigenvalue c, estimated from above; if c is below 1, some number below 1. Collective.
+/// The greatest eigenvalue c, estimated from above. Collective.
 double greatest_coupling(HalfMatrix& A, const std::vector<NodeBlock>& weighted) {
   constexpr int kMostSteps = 60;  // of Lanczos, from numbers at random; 8 to 25 suffice for all that was tried
   constexpr double kNear = 0.03, kAbove = 0.01;  // relative; a Ritz value comes from below
-  // Below 1 its value does not matter. If all other eigenvalues are within ±0.6, Lanczos's method finds one of 1 within 8 steps: Chebyshev's polynomial of degree 8
-  // for that interval is 3000 at 1.
-  constexpr int kTelling = 8;
   const Ranks& ranks = A.ranks();
   Between between(A, weighted);
   const auto dot = [](const std::vector<double>& a, const std::vector<double>& b) { return std::inner_product(a.begin(), a.end(), b.begin(), 0.0); };
@@ -104,7 +101,7 @@ double greatest_coupling(HalfMatrix& A, const std::vector<NodeBlock>& weighted) 
     diagonal.push_back(on_v), beside.push_back(size);
     before = std::exchange(v, std::move(w));
     greatest = greatest_ritz(diagonal, beside);
-    if (greatest.distance <= kNear * greatest.value || (k + 1 >= kTelling && greatest.value + 3 * greatest.distance < 1)) break;
+    if (greatest.distance <= kNear * greatest.value) break;
   }
   return greatest.value + std::max(greatest.distance, kAbove * greatest.value);
 }

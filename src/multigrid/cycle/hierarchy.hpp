@@ -33,9 +33,10 @@ class Hierarchy {
   const AllOwnFunctions& functions() const { return piece_.functions; }
   int levels() const { return static_cast<int>(matrices_.size()); }
   HalfMatrix& matrix(int level) { return *matrices_[level]; }             ///< from 0, the finest
-  /// Flags of own rows whose numbers, or those of their interpolation, are new since forget_changes(). Not of the last level.
+  /// Flags of own rows in which numbers of the matrix or of the interpolation have changed since forget_changes(). The constructor clears some of them: who asks
+  /// first must take all rows. There are none for the last level.
   const std::vector<char>& changed(int level) const { return pending_[level]; }
-  void forget_changes();
+  void forget_changes();  ///< not collective
   Mat interpolation(int level) const { return interpolations_[level]; }   ///< from `level` + 1 to `level`
   int meshes() const { return static_cast<int>(piece_.own.size()) - 1; }  ///< coarser ones, those that last_for_all() has among them
   int finer() const { return std::max(0, piece_.shared_levels - 1); }     ///< levels of which this hierarchy is the rest

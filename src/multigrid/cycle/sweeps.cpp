@@ -13,11 +13,14 @@ void Sweeps::set(const std::vector<char>& changed, const std::vector<int>& solve
   const double unit = std::exp2(std::ilogb(greatest > 0 && std::isfinite(greatest) ? greatest : 1));
   const bool all = below_.empty() || unit != unit_;
   unit_ = unit;
-  below_.resize(static_cast<std::size_t>(A_.half().starts.back()) * square + kSpare);
-  inverse_.resize(static_cast<std::size_t>(A_.nodes()) * square);
+  if (below_.empty()) {
+    below_.resize(static_cast<std::size_t>(A_.half().starts.back()) * square + kSpare);
+    inverse_.resize(static_cast<std::size_t>(A_.nodes()) * square);
+  }
   const auto is_due = [&](int node) { return all || std::any_of(changed.begin() + node * A_.block(), changed.begin() + (node + 1) * A_.block(), std::identity()); };
   for (int node = 0; node < A_.nodes(); ++node)
     if (is_due(node)) take(node);
+  // The damping depends on the borders of all ranks: all compute it anew, or none. At border nodes take() has left blocks without it.
   if (A_.ranks().all(solved == solved_ && std::ranges::none_of(A_.border(), is_due))) return;
   solved_ = solved;
   const std::vector<NodeBlock> damped = damped_blocks(A_, solved);

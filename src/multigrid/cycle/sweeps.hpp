@@ -20,8 +20,8 @@ class Sweeps {
     if (!A.ranks().alone()) moved_.emplace(A.block(), A.nodes());
   }
 
-  /// Takes the numbers of A: all of them the first time, later those of the own rows that `changed` flags. `solved`: rows of this rank, counted from its first,
-  /// ascending, that are solved exactly as well.
+  /// Takes the numbers of A: all of them the first time, later those that have changed. `changed` flags own rows with such a number; one beside the diagonal counts
+  /// in its row and in that of its column. `solved`: rows of this rank, counted from its first, ascending, that are solved exactly as well.
   void set(const std::vector<char>& changed, const std::vector<int>& solved);
   /// x = M⁻¹ b where M is a sweep, and left = b − A x, which the sweep computes on its way. `left` may be `b`.
   void forward(const double* b, double* x, double* left);

@@ -30,7 +30,7 @@ DOTYK_WIDE(float, 4)
 DOTYK_WIDE(float, 8)
 #undef DOTYK_WIDE
 
-/// A loop over the rows of a block. Where GCC 12 does not unroll it, sums are kept in memory, and sweeps take twice the time.
+/// A loop over the `rows` of a block. Without the pragma GCC 12 does not unroll such loops. It then keeps sums in memory, and sweeps take twice the time.
 #define DOTYK_EACH(row) _Pragma("GCC unroll 8") for (int row = 0; row < rows; ++row)
 
 /// What the kernels know of blocks, nodes of `rows` rows.
