@@ -130,7 +130,7 @@ Hierarchy::Hierarchy(const Ranks& ranks, Piece piece) : ranks_(ranks), piece_(st
   empty_.assign(static_cast<std::size_t>(piece_.own[0]), 0);
   if (piece_.lent) matrices_.emplace_back(piece_.lent, &piece_.lent->now());
   else add_level(HalfMatrix(ranks_, std::move(piece_.matrix)));
-  pending_.emplace_back(empty_.size(), 1);
+  changed_.emplace_back(empty_.size(), 1);
   make_room_for(piece_.beside);
   coarsen();
 }
@@ -196,7 +196,7 @@ void Hierarchy::coarsen() {
 
 void Hierarchy::multiply(int level) {
   products_.emplace_back(matrix(level), interpolations_[level]);
-  if (level > 0) pending_.emplace_back(static_cast<std::size_t>(matrix(level).rows()), 1);
+  if (level > 0) changed_.emplace_back(static_cast<std::size_t>(matrix(level).rows()), 1);
 }
 
 void Hierarchy::take_functions(Mat S, int count) {
@@ -211,8 +211,8 @@ void Hierarchy::take_functions(Mat S, int count) {
 }
 
 void Hierarchy::compute_coarser() {
-  const std::vector<char> computed = products_[0].compute(matrix(0), interpolations_[0], matrix(1), pending_[0]);
-  std::ranges::fill(pending_[0], 0);
+  const std::vector<char> computed = products_[0].compute(matrix(0), interpolations_[0], matrix(1), changed_[0]);
+  std::ranges::fill(changed_[0], 0);
   coarser_ = matrix(1).stored();
   make_definite(matrix(1), computed);
 }
@@ -258,7 +258,7 @@ void Hierarchy::truncate(const std::vector<int>& held) {
   const LocalRows P(interpolations_[0]);
   for (int i = 0; i < P.count(); ++i) {
     if (empty[i] == empty_[i]) continue;
-    pending_[0][i] = 1;
+    changed_[0][i] = 1;
     std::vector<double>& before = emptied_[i];
     std::size_t k = 0;
     P.for_each(i, [&](int, double& value) {
@@ -289,8 +289,8 @@ bool Hierarchy::take(const Change& change) {
     if (change.rows[e] == change.columns[e] && !(change.values[e] > 0)) positive = false;
     if (*number == change.values[e]) continue;
     numbers.emplace_back(number, change.values[e]);
-    pending_[0][row] = 1;
-    if (A.has(change.columns[e])) pending_[0][change.columns[e] - A.first_row()] = 1;
+    changed_[0][row] = 1;
+    if (A.has(change.columns[e])) changed_[0][change.columns[e] - A.first_row()] = 1;
   }
   if (piece_.lent) piece_.lent->change(std::move(numbers));
   else for (const auto& [place, number] : numbers) *place = number;
@@ -309,20 +309,20 @@ bool Hierarchy::set(const Change& change) {
 }
 
 void Hierarchy::set(const AllNumbers& numbers) {
-  matrix(0).take(numbers.below, numbers.diagonal, pending_[0]);
+  matrix(0).take(numbers.below, numbers.diagonal, changed_[0]);
   fill_coarse();
 }
 
 void Hierarchy::fill_coarse() {
   for (std::size_t l = 0; l < products_.size(); ++l) {
-    const std::vector<char> computed = products_[l].compute(matrix(l), interpolations_[l], matrix(l + 1), pending_[l]);
+    const std::vector<char> computed = products_[l].compute(matrix(l), interpolations_[l], matrix(l + 1), changed_[l]);
     make_definite(matrix(l + 1), computed);
-    for (std::size_t i = 0; l + 1 < products_.size() && i < computed.size(); ++i) pending_[l + 1][i] |= computed[i];
+    for (std::size_t i = 0; l + 1 < products_.size() && i < computed.size(); ++i) changed_[l + 1][i] |= computed[i];
   }
 }
 
 void Hierarchy::forget_changes() {
-  for (std::vector<char>& rows : pending_) std::ranges::fill(rows, 0);
+  for (std::vector<char>& rows : changed_) std::ranges::fill(rows, 0);
 }
 
 double Hierarchy::bytes() const {

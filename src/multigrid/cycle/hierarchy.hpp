@@ -33,9 +33,9 @@ class Hierarchy {
   const AllOwnFunctions& functions() const { return piece_.functions; }
   int levels() const { return static_cast<int>(matrices_.size()); }
   HalfMatrix& matrix(int level) { return *matrices_[level]; }             ///< from 0, the finest
-  /// Flags of own rows in which numbers of the matrix or of the interpolation have changed since forget_changes(). The constructor clears some of them: who asks
-  /// first must take all rows. There are none for the last level.
-  const std::vector<char>& changed(int level) const { return pending_[level]; }
+  /// Flags of own rows in which numbers of the matrix or of the interpolation have changed since forget_changes(). The constructor clears some flags, so that the
+  /// first caller must take all rows. The last level has no flags.
+  const std::vector<char>& changed(int level) const { return changed_[level]; }
   void forget_changes();  ///< not collective
   Mat interpolation(int level) const { return interpolations_[level]; }   ///< from `level` + 1 to `level`
   int meshes() const { return static_cast<int>(piece_.own.size()) - 1; }  ///< coarser ones, those that last_for_all() has among them
@@ -51,7 +51,7 @@ class Hierarchy {
   void coarsen();
   void compute_coarser();
   void restrict_load(Mat P);
-  /// Adds a level for each of the first `count` coarser meshes. S takes displacements to unknowns, at all slots; null where the two are the same.
+  /// Adds a level for each of the first `count` coarser meshes. S maps displacements to unknowns; null if the unknowns are displacements.
   void take_functions(Mat S, int count);
   /// Levels of aggregates below a matrix of the near kernel that Piece::modes are.
   void take_aggregates(OwnedMat of);
@@ -74,7 +74,7 @@ class Hierarchy {
   std::vector<Galerkin> products_;              // of each interpolation
   std::vector<char> empty_;                     // own rows of the finest interpolation that are empty now
   std::map<int, std::vector<double>> emptied_;  // the numbers that they had
-  std::vector<std::vector<char>> pending_;      // of each level but the last, flags of own rows, see changed()
+  std::vector<std::vector<char>> changed_;      // of each level but the last, flags of own rows, see changed()
 };
 
 }  // namespace dotyk::multigrid

@@ -3,20 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <utility>
 
 namespace dotyk::multigrid {
 
 void Sweeps::set(const std::vector<char>& changed, const std::vector<int>& solved) {
-  const std::size_t square = static_cast<std::size_t>(A_.block()) * A_.block();
   double greatest = 0;
   for (int row = 0; row < A_.rows(); ++row) greatest = std::max(greatest, A_.diagonal(row));
   const double unit = std::exp2(std::ilogb(greatest > 0 && std::isfinite(greatest) ? greatest : 1));
-  const bool all = below_.empty() || unit != unit_;
-  unit_ = unit;
-  if (below_.empty()) {
-    below_.resize(static_cast<std::size_t>(A_.half().starts.back()) * square + kSpare);
-    inverse_.resize(static_cast<std::size_t>(A_.nodes()) * square);
-  }
+  const bool all = std::exchange(unit_, unit) != unit;
   const auto is_due = [&](int node) { return all || std::any_of(changed.begin() + node * A_.block(), changed.begin() + (node + 1) * A_.block(), std::identity()); };
   for (int node = 0; node < A_.nodes(); ++node)
     if (is_due(node)) take(node);
@@ -24,7 +19,7 @@ void Sweeps::set(const std::vector<char>& changed, const std::vector<int>& solve
   if (A_.ranks().all(solved == solved_ && std::ranges::none_of(A_.border(), is_due))) return;
   solved_ = solved;
   const std::vector<NodeBlock> damped = damped_blocks(A_, solved);
-  for (std::size_t k = 0; k < damped.size(); ++k) invert(A_.block(), damped[k].data(), inverse_.data() + A_.border()[k] * square);
+  for (std::size_t k = 0; k < damped.size(); ++k) invert(A_.block(), damped[k].data(), inverse_.data() + static_cast<std::ptrdiff_t>(A_.border()[k]) * A_.block() * A_.block());
   take_border();
 }
 

@@ -16,12 +16,13 @@ namespace dotyk::multigrid {
 class Sweeps {
  public:
   /// `A` must outlive this.
-  explicit Sweeps(HalfMatrix& A) : A_(A) {
+  explicit Sweeps(HalfMatrix& A)
+      : A_(A), below_(static_cast<std::size_t>(A.half().starts.back()) * A.block() * A.block() + kSpare), inverse_(static_cast<std::size_t>(A.nodes()) * A.block() * A.block()) {
     if (!A.ranks().alone()) moved_.emplace(A.block(), A.nodes());
   }
 
-  /// Takes the numbers of A: all of them the first time, later those that have changed. `changed` flags own rows with such a number; one beside the diagonal counts
-  /// in its row and in that of its column. `solved`: rows of this rank, counted from its first, ascending, that are solved exactly as well.
+  /// Takes the numbers of A: all of them the first time, later those that have changed. `changed` flags own rows: a number (i, j) that has changed flags the rows
+  /// i and j. `solved`: rows of this rank, counted from its first, ascending, that are solved exactly as well.
   void set(const std::vector<char>& changed, const std::vector<int>& solved);
   /// x = M⁻¹ b where M is a sweep, and left = b − A x, which the sweep computes on its way. `left` may be `b`.
   void forward(const double* b, double* x, double* left);
@@ -38,7 +39,7 @@ class Sweeps {
   void take_off(PaddedVector& residual, const PaddedVector& x);
 
   HalfMatrix& A_;
-  double unit_ = 1;  ///< of below_ and border_: a power of two that brings these numbers to about 1, within the range of floats
+  double unit_ = 0;  ///< of below_ and border_: a power of two that brings these numbers to about 1, within the range of floats; 0: no numbers are taken yet
   std::vector<float> below_;
   std::vector<double> inverse_;
   std::vector<int> solved_;

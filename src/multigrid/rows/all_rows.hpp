@@ -10,10 +10,10 @@ namespace dotyk::multigrid {
 
 /// Joins the rows of all ranks, as if one rank had them all. Collective.
 HalfRows all_rows(const Ranks& ranks, const HalfRows& own);
-/// Joins the functions of a coarser mesh that the ranks have. Collective.
+/// Joins the ranks' functions of a coarser mesh, as if one rank had them all. Collective.
 OwnFunctions all_rows(const Ranks& ranks, const OwnFunctions& own);
 
-/// What all_rows() gives as HalfRows::below, without its spare numbers, and as HalfRows::diagonal.
+/// The numbers of the rows that all_rows() makes: their HalfRows::below, without its spare numbers, and their HalfRows::diagonal.
 struct AllNumbers {
   std::vector<double> below, diagonal;
 };

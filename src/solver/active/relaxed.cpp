@@ -17,8 +17,8 @@ using problem::Problem;
 constexpr int kLayers = 4;   ///< of neighbours, about the rows that bear
 constexpr int kSweeps = 20;  ///< up and down
 /// The greatest part of the forces of rows with several branches that sweeps may change. Where they change more, contact has been made to balance the errors of
-/// interpolation within a stiff body. Measured on 16³ cells and more: 0.1 to 0.6 between equal bodies, or if one is a hundred times stiffer; 0.85 to 1.1 if it
-/// is a thousand times stiffer.
+/// interpolation within a stiff body. Measured on 16³ cells and more: 0.1 to 0.6 between equal bodies, or if one is a hundred times stiffer than the
+/// other; 0.85 to 1.1 if it is a thousand times stiffer.
 constexpr double kMostChange = 0.7;
 
 /// Rows that bear under laws with several branches.
