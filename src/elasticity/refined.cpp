@@ -112,9 +112,8 @@ Counts counts(const mesh::Mesh& mesh, std::size_t boundary) {
   return n;
 }
 
-/// Two layers of cells at the boundary, as a part of the mesh.
-mesh::Submesh two_layers(const mesh::Mesh& from) {
-  const std::vector<mesh::Facet> outside = mesh::boundary(from);
+/// Two layers of cells at the boundary, `outside`, as a part of the mesh.
+mesh::Submesh two_layers(const mesh::Mesh& from, const std::vector<mesh::Facet>& outside) {
   std::vector<char> near = mesh::flag_nodes(from, outside);
   for (const int c : mesh::cells_at(from, near)) std::for_each_n(from.cell(c), mesh::nodes_of(from.element), [&](int node) { near[node] = 1; });
   mesh::Submesh layers = mesh::submesh(from, mesh::cells_at(from, near));
@@ -146,8 +145,9 @@ std::shared_ptr<const mesh::Coarser> coarser_of(const mesh::Submesh& layers, con
 NearBoundary refined_near_boundary(const mesh::Mesh& mesh, int times, Monitor* watch) {
   std::vector<int> nodes = mesh::coarser_nodes(mesh);  // of whole meshes
   nodes.insert(nodes.begin(), mesh.node_count());
-  Counts count = counts(mesh, mesh::boundary(mesh).size());
-  mesh::Submesh now = two_layers(mesh);  // all that lies near the boundary on finer meshes is in these
+  const std::vector<mesh::Facet> outside = mesh::boundary(mesh);
+  Counts count = counts(mesh, outside.size());
+  mesh::Submesh now = two_layers(mesh, outside);  // all that lies near the boundary on finer meshes is in these
   std::vector<int> parent = now.cell;
   std::vector<std::vector<double>> between;
   std::vector<int> node = now.node;
@@ -164,7 +164,7 @@ NearBoundary refined_near_boundary(const mesh::Mesh& mesh, int times, Monitor* w
     const mesh::Mesh finer = refined(now.mesh, watch);
     const int each = finer.cell_count() / now.mesh.cell_count();
     if (k > 0) between.insert(between.begin(), std::move(now.mesh.coordinates));
-    now = two_layers(finer);
+    now = two_layers(finer, mesh::boundary(finer));
     coarser = now.mesh.coarser = coarser_of(now, finer.coarser->means, node, node_count, coarser);
     std::vector<int> of_layers;
     for (const int c : now.cell) of_layers.push_back(parent[c / each]);

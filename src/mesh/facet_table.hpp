@@ -19,10 +19,10 @@ class FacetTable {
   static constexpr int kFewCells = 50'000;  ///< not worth a thread
 
   explicit FacetTable(const Mesh& mesh)
-      : mesh_(mesh), by_least_(mesh.node_count(), [&](auto&& put) {
-          for (int f = 0; f < mesh.cell_count() * mesh.topology().facets; ++f) put(least_corner(f), f);
+      : mesh_(mesh), topology_(mesh.topology()), by_least_(mesh.node_count(), [&](auto&& put) {
+          for (int f = 0; f < mesh.cell_count() * topology_.facets; ++f) put(least_corner(f), f);
         }) {
-    others_.resize(static_cast<std::size_t>(mesh.cell_count()) * mesh.topology().facets);
+    others_.resize(static_cast<std::size_t>(mesh.cell_count()) * topology_.facets);
     parallel_ranges(mesh.node_count(), threads_for(mesh.cell_count(), kFewCells), [&](int, int first, int end) {
       for (int node = first; node < end; ++node) {
         auto others = others_.begin() + by_least_.before(node);
@@ -61,18 +61,19 @@ class FacetTable {
 
  private:
   /// The facet of a number: facet l of cell c has the number c · facets + l.
-  Facet facet(int number) const { return {number / mesh_.topology().facets, number % mesh_.topology().facets}; }
+  Facet facet(int number) const { return {number / topology_.facets, number % topology_.facets}; }
+  int corner(Facet f, int k) const { return mesh_.cell(f.cell)[topology_.facet_nodes[f.local][k]]; }
   int least_corner(int number) const {
     const Facet f = facet(number);
-    int least = mesh_.facet_node(f, 0);
-    for (int k = 1; k < mesh_.topology().facet_corners; ++k) least = std::min(least, mesh_.facet_node(f, k));
+    int least = corner(f, 0);
+    for (int k = 1; k < topology_.facet_corners; ++k) least = std::min(least, corner(f, k));
     return least;
   }
   Corners corners_of(int number) const {
     const Facet f = facet(number);
     int nodes[4];
-    for (int k = 0; k < mesh_.topology().facet_corners; ++k) nodes[k] = mesh_.facet_node(f, k);
-    return sorted(nodes, mesh_.topology().facet_corners);
+    for (int k = 0; k < topology_.facet_corners; ++k) nodes[k] = corner(f, k);
+    return sorted(nodes, topology_.facet_corners);
   }
 
   /// All corners of a facet except the least one, ascending.
@@ -83,6 +84,7 @@ class FacetTable {
   static Others behind(const Corners& corners) { return {corners[1], corners[2], corners[3]}; }
 
   const Mesh& mesh_;
+  const ElementTopology& topology_;
   Buckets by_least_;  ///< numbers of facets, by their least corner
   std::vector<Others> others_;  ///< in the order of by_least_, so that a bucket is searched without a jump in memory
 };

@@ -66,10 +66,8 @@ std::array<double, 8> shares(const ElementTopology& t, int node) {
   return share;
 }
 
-/// ∂x/∂λ_i of Σ λ_i(2λ_i − 1) x_i + Σ 4λ_iλ_j x_ij, of order 1 of Σ λ_i x_i.
-Point simplex_derivative(const Mesh& mesh, const int* n, const std::array<double, 8>& lambda, int i) {
-  const ElementTopology& t = mesh.topology();
-  if (t.order == 1) return mesh.point(n[i]);
+/// ∂x/∂λ_i of Σ λ_i(2λ_i − 1) x_i + Σ 4λ_iλ_j x_ij.
+Point simplex_derivative(const Mesh& mesh, const ElementTopology& t, const int* n, const std::array<double, 8>& lambda, int i) {
   Point d{0, 0, 0};
   add(d, 4 * lambda[i] - 1, mesh.point(n[i]));
   for (std::size_t k = 0; k < t.between.size(); ++k) {
@@ -79,15 +77,21 @@ Point simplex_derivative(const Mesh& mesh, const int* n, const std::array<double
   return d;
 }
 
-double simplex_jacobian(const Mesh& mesh, const int* n) {
-  const ElementTopology& t = mesh.topology();
+/// `derivative(i)`: ∂x/∂λ_i.
+template <class Derivative>
+double simplex_jacobian_at(int dimension, const Derivative& derivative) {
+  const Point first = derivative(0);
+  Point d[3] = {{}, {}, kUp};
+  for (int i = 1; i <= dimension; ++i) d[i - 1] = minus(derivative(i), first);
+  return determinant(d[0], d[1], d[2]);
+}
+
+double simplex_jacobian(const Mesh& mesh, const ElementTopology& t, const int* n) {
+  if (t.order == 1) return simplex_jacobian_at(t.dimension, [&](int i) { return mesh.point(n[i]); });
   double least = INFINITY;
-  for (int node = 0; node < (t.order == 1 ? 1 : t.nodes); ++node) {
+  for (int node = 0; node < t.nodes; ++node) {
     const auto lambda = shares(t, node);
-    const Point first = simplex_derivative(mesh, n, lambda, 0);
-    Point d[3] = {{}, {}, kUp};
-    for (int i = 1; i <= t.dimension; ++i) d[i - 1] = minus(simplex_derivative(mesh, n, lambda, i), first);
-    least = std::min(least, determinant(d[0], d[1], d[2]));
+    least = std::min(least, simplex_jacobian_at(t.dimension, [&](int i) { return simplex_derivative(mesh, t, n, lambda, i); }));
   }
   return least;
 }
@@ -130,7 +134,7 @@ double tensor_jacobian(const Mesh& mesh, const int* n) {
 double least_jacobian(const Mesh& mesh, int c) {
   const ElementTopology& t = mesh.topology();
   const int* nodes = mesh.cell(c);
-  if (t.simplex()) return simplex_jacobian(mesh, nodes);
+  if (t.simplex()) return simplex_jacobian(mesh, t, nodes);
   if (t.order == 2) return tensor_jacobian(mesh, nodes);
   return t.dimension == 2 ? quad_jacobian(mesh, nodes) : hex_jacobian(mesh, nodes);
 }

@@ -7,12 +7,6 @@
 
 namespace dotyk::mesh {
 
-Point Mesh::point(int i) const {
-  Point p{0, 0, 0};
-  std::copy_n(node(i), dimension(), p.begin());
-  return p;
-}
-
 Point Mesh::mean(const int* nodes, int count) const {
   Point p{0, 0, 0};
   for (int k = 0; k < count; ++k)

@@ -57,7 +57,10 @@ struct Mesh {
   const double* node(int i) const { return &coordinates[static_cast<std::size_t>(i) * dimension()]; }
   const int* cell(int c) const { return &cells[static_cast<std::size_t>(c) * nodes_of(element)]; }
 
-  Point point(int i) const;
+  Point point(int i) const {
+    const double* x = node(i);
+    return {x[0], x[1], dimension() == 3 ? x[2] : 0};
+  }
   Point mean(const int* nodes, int count) const;
   Point cell_centre(int c) const;
   Box box() const;  ///< around the nodes
