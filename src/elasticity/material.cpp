@@ -25,6 +25,7 @@ Hooke isotropic(double E, double nu, int dimension, Plane plane) {
   Hooke h;
   h.dimension = dimension;
   h.zz_factor = dimension == 2 && !stress ? nu : 0;
+  h.isotropic = true;
   for (int i = 0; i < dimension; ++i)
     for (int j = 0; j < dimension; ++j) {
       h.c[i][i][j][j] += lambda;
@@ -38,12 +39,12 @@ Lists MaterialField::lists() const {
   const double* c = &uniform_.c[0][0][0][0];
   std::vector<double> uniform(c, c + sizeof(uniform_.c) / sizeof(double));
   uniform.push_back(uniform_.zz_factor);
-  return {{{uniform_.dimension, dimension_, static_cast<int>(plane_)}}, {std::move(uniform), E_, nu_}};
+  return {{{uniform_.dimension, dimension_, static_cast<int>(plane_), uniform_.isotropic}}, {std::move(uniform), E_, nu_}};
 }
 
 MaterialField::MaterialField(const Lists& lists)
     : E_(lists.real[1]), nu_(lists.real[2]), dimension_(lists.whole[0][1]), plane_(static_cast<Plane>(lists.whole[0][2])) {
-  uniform_.dimension = lists.whole[0][0];
+  uniform_.dimension = lists.whole[0][0], uniform_.isotropic = lists.whole[0][3] != 0;
   std::copy(lists.real[0].begin(), lists.real[0].end() - 1, &uniform_.c[0][0][0][0]);
   uniform_.zz_factor = lists.real[0].back();
 }

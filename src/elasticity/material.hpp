@@ -17,6 +17,7 @@ struct Hooke {
   double c[3][3][3][3] = {};
   /// σ_zz = zz_factor (σ_xx + σ_yy) in the plane: ν in isotropic plane strain, else 0.
   double zz_factor = 0;
+  bool isotropic = false;  ///< then c_ijkl = λ δ_ij δ_kl + μ (δ_ik δ_jl + δ_il δ_jk) with λ = c_xxyy, μ = c_xyxy
   bool operator==(const Hooke&) const = default;
 };
 

@@ -73,6 +73,9 @@ TEST_CASE("the numbers of the stiffness: symmetric, rigid motions free, positive
       test::distort(m, 0.1);
       const auto free = test::all_free(m);
       const algebra::DenseMatrix K = test::full(elasticity::assemble(m, test::steel(dim), {}, free));
+      elasticity::Hooke general = test::steel(dim).at(0);
+      general.isotropic = false;
+      CHECK((test::full(elasticity::assemble(m, test::MaterialField(general), {}, free)) - K).norm() < 1e-14 * K.norm());
       const Eigen::VectorXd e = algebra::eigenvalues(K);
       const int rigid = dim == 2 ? 3 : 6;
       CHECK(e.head(rigid).cwiseAbs().maxCoeff() < 1e-12 * e.maxCoeff());
