@@ -2,6 +2,8 @@
 
 // From a mesh's cell type to its reference element, at compile time; element matrices and stresses. Used inside this room only.
 
+#include <algorithm>
+
 #include <Eigen/Core>
 
 #include "elasticity/load.hpp"
@@ -116,54 +118,41 @@ void for_each_load_point(const mesh::Mesh& mesh, Visit&& visit) {
   }
 }
 
-/// Adds w ∂_k φ_a c_ikjl ∂_l φ_b to k[a][b][i][j], for a ≥ b. g: gradients of the φ.
-template <class E>
-void add_stiffness_at(const double g[][E::dim], double w, const Hooke& h, double k[][E::nodes][E::dim][E::dim]) {
-  constexpr int d = E::dim;
-  for (int b = 0; b < E::nodes; ++b) {
-    double t[d][d][d];  // c_ikjl ∂_l φ_b
-    for (int i = 0; i < d; ++i)
-      for (int m = 0; m < d; ++m)
-        for (int j = 0; j < d; ++j) {
-          t[i][m][j] = 0;
-          for (int l = 0; l < d; ++l) t[i][m][j] += h.c[i][m][j][l] * g[b][l];
-          t[i][m][j] *= w;
-        }
-    for (int a = b; a < E::nodes; ++a)
-      for (int i = 0; i < d; ++i)
-        for (int j = 0; j < d; ++j)
-          for (int m = 0; m < d; ++m) k[a][b][i][j] += g[a][m] * t[i][m][j];
+/// c_ikjl g_kl in place of g. In isotropic material that is λ g_ij + μ (g_ji + δ_ij g_kk).
+template <int d>
+void contract(const Hooke& h, double g[d][d]) {
+  double of[d][d], trace = 0;
+  for (int i = 0; i < d; ++i) {
+    trace += g[i][i];
+    for (int j = 0; j < d; ++j) of[i][j] = g[i][j];
   }
+  const double lambda = h.c[0][0][1][1], mu = h.c[0][1][0][1];
+  for (int i = 0; i < d; ++i)
+    for (int j = 0; j < d; ++j) {
+      g[i][j] = h.isotropic ? lambda * of[i][j] + mu * (of[j][i] + (i == j ? trace : 0)) : 0;
+      for (int k = 0; k < d && !h.isotropic; ++k)
+        for (int l = 0; l < d; ++l) g[i][j] += h.c[i][k][j][l] * of[k][l];
+    }
 }
 
-/// The same in isotropic material, w (λ ∂_i φ_a ∂_j φ_b + μ ∂_j φ_a ∂_i φ_b + μ δ_ij ∂_l φ_a ∂_l φ_b), in a third of the operations.
-template <class E>
-void add_isotropic_stiffness_at(const double g[][E::dim], double w, const Hooke& h, double k[][E::nodes][E::dim][E::dim]) {
-  constexpr int d = E::dim;
-  const double lambda = w * h.c[0][0][1][1], mu = w * h.c[0][1][0][1];
-  for (int a = 0; a < E::nodes; ++a)
-    for (int b = 0; b <= a; ++b)
-      for (int i = 0; i < d; ++i)
-        for (int j = 0; j < d; ++j) {
-          k[a][b][i][j] += lambda * g[a][i] * g[b][j] + mu * g[a][j] * g[b][i];
-          k[a][b][i][i] += mu * g[a][j] * g[b][j];
-        }
-}
-
-/// k[a][b][i][j] = ∫ ∂_k φ_a c_ikjl ∂_l φ_b over the cell, for a ≥ b.
+/// k[a][b][i][j] = ∫ ∂_k φ_a c_ikjl ∂_l φ_b over the cell, for a ≥ b: ∫ ∂_k φ_a ∂_l φ_b first, since Hooke's tensor is the same all over the cell.
 template <class E>
 void stiffness(const double x[][E::dim], const Hooke& h, double k[][E::nodes][E::dim][E::dim]) {
   constexpr int d = E::dim;
-  for (int a = 0; a < E::nodes; ++a)
-    for (int b = 0; b <= a; ++b)
-      for (int i = 0; i < d; ++i)
-        for (int j = 0; j < d; ++j) k[a][b][i][j] = 0;
+  const auto each_pair = [](const auto& visit) {
+    for (int a = 0; a < E::nodes; ++a)
+      for (int b = 0; b <= a; ++b) visit(a, b);
+  };
+  each_pair([&](int a, int b) { std::fill_n(&k[a][b][0][0], d * d, 0.0); });
   for (int q = 0; q < E::points; ++q) {
     double g[E::nodes][d];
     const double w = physical_gradient<E>(x, E::point(q), g) * E::weight(q);
-    if (h.isotropic) add_isotropic_stiffness_at<E>(g, w, h, k);
-    else add_stiffness_at<E>(g, w, h, k);
+    each_pair([&](int a, int b) {
+      for (int i = 0; i < d; ++i)
+        for (int j = 0; j < d; ++j) k[a][b][i][j] += w * g[a][i] * g[b][j];
+    });
   }
+  each_pair([&](int a, int b) { contract<d>(h, k[a][b]); });
 }
 
 /// ∂_j of component i of a nodal field (node × dimension) in a cell, where the gradients of its shape functions are g.

@@ -18,13 +18,9 @@ void check_isotropic(double E, double nu, bool plane_stress) {
                                     : ""));
 }
 
-Hooke isotropic(double E, double nu, int dimension, Plane plane) {
-  const bool stress = dimension == 2 && plane == Plane::stress;
-  const double mu = E / (2 * (1 + nu));
-  const double lambda = stress ? E * nu / (1 - nu * nu) : E * nu / ((1 + nu) * (1 - 2 * nu));
+Hooke by_lame(double lambda, double mu, int dimension) {
   Hooke h;
   h.dimension = dimension;
-  h.zz_factor = dimension == 2 && !stress ? nu : 0;
   h.isotropic = true;
   for (int i = 0; i < dimension; ++i)
     for (int j = 0; j < dimension; ++j) {
@@ -32,6 +28,13 @@ Hooke isotropic(double E, double nu, int dimension, Plane plane) {
       h.c[i][j][i][j] += mu;
       h.c[i][j][j][i] += mu;
     }
+  return h;
+}
+
+Hooke isotropic(double E, double nu, int dimension, Plane plane) {
+  const bool stress = dimension == 2 && plane == Plane::stress;
+  Hooke h = by_lame(stress ? E * nu / (1 - nu * nu) : E * nu / ((1 + nu) * (1 - 2 * nu)), E / (2 * (1 + nu)), dimension);
+  h.zz_factor = dimension == 2 && !stress ? nu : 0;
   return h;
 }
 

@@ -112,7 +112,7 @@ Counts counts(const mesh::Mesh& mesh, std::size_t boundary) {
   return n;
 }
 
-/// Two layers of cells at the boundary, `outside`, as a part of the mesh.
+/// Two layers of cells at the boundary, whose facets are `outside`, as a part of the mesh.
 mesh::Submesh two_layers(const mesh::Mesh& from, const std::vector<mesh::Facet>& outside) {
   std::vector<char> near = mesh::flag_nodes(from, outside);
   for (const int c : mesh::cells_at(from, near)) std::for_each_n(from.cell(c), mesh::nodes_of(from.element), [&](int node) { near[node] = 1; });

@@ -66,7 +66,7 @@ std::array<double, 8> shares(const ElementTopology& t, int node) {
   return share;
 }
 
-/// ∂x/∂λ_i of Σ λ_i(2λ_i − 1) x_i + Σ 4λ_iλ_j x_ij.
+/// Of a simplex of order 2: ∂x/∂λ_i of Σ λ_i(2λ_i − 1) x_i + Σ 4λ_iλ_j x_ij.
 Point simplex_derivative(const Mesh& mesh, const ElementTopology& t, const int* n, const std::array<double, 8>& lambda, int i) {
   Point d{0, 0, 0};
   add(d, 4 * lambda[i] - 1, mesh.point(n[i]));
@@ -77,7 +77,7 @@ Point simplex_derivative(const Mesh& mesh, const ElementTopology& t, const int* 
   return d;
 }
 
-/// `derivative(i)`: ∂x/∂λ_i.
+/// The Jacobian of a simplex where ∂x/∂λ_i is `derivative(i)`.
 template <class Derivative>
 double simplex_jacobian_at(int dimension, const Derivative& derivative) {
   const Point first = derivative(0);
@@ -110,11 +110,10 @@ std::array<int, 27> lattice(const ElementTopology& t) {
   return node;
 }
 
-double tensor_jacobian(const Mesh& mesh, const int* n) {
+double tensor_jacobian(const Mesh& mesh, const ElementTopology& t, const int* n) {
   // Derivatives at the three nodes of a line of unit length.
   constexpr double weight[3][3] = {{-3, 4, -1}, {-1, 0, 1}, {1, -4, 3}};
   constexpr int stride[3] = {1, 3, 9};
-  const ElementTopology& t = mesh.topology();
   const auto node = lattice(t);
   double least = INFINITY;
   for (int a = 0; a < t.nodes; ++a) {
@@ -135,7 +134,7 @@ double least_jacobian(const Mesh& mesh, int c) {
   const ElementTopology& t = mesh.topology();
   const int* nodes = mesh.cell(c);
   if (t.simplex()) return simplex_jacobian(mesh, t, nodes);
-  if (t.order == 2) return tensor_jacobian(mesh, nodes);
+  if (t.order == 2) return tensor_jacobian(mesh, t, nodes);
   return t.dimension == 2 ? quad_jacobian(mesh, nodes) : hex_jacobian(mesh, nodes);
 }
 

@@ -192,7 +192,7 @@ bool CondensedProblem::extend(const Problem& grown, const RigidMotions& rigid, c
     flops.push_back(sweeps.back().flops());
     sum += flops.back(), bytes += 2 * sweeps.back().bytes();
   }
-  if (sum > kFaster * again || bytes > available_memory()) return false;
+  if (sum > kFaster * again || !memory_for(bytes)) return false;
   std::vector<algebra::Condensation::Further> found(block.size());
   const auto phase = [&](int k, int) { return text("condensing '", grown.blocks[block[k]].name, "' onto ", sweeps[k].rows(), " further rows"); };
   algebra::factor_in_threads(flops, phase, monitor, [&](int k) { found[k] = parts_[block[k]].condensation.further(sweeps[k]); });

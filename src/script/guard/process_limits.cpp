@@ -65,7 +65,10 @@ void set_limits(const ProcessLimits& limits) {
       throw std::runtime_error(text("--memory ", *limits.memory * 1e-6, "M is less than dotyk needs to start (about ", std::ceil(least * 1e-6), "M)"));
     limit(RLIMIT_AS, *limits.memory);
   }
-  if (std::isfinite(address_space_left())) mallopt(M_ARENA_MAX, 1);  // each thread's arena would take 64 MB of it
+  if (std::isfinite(address_space_left())) {
+    mallopt(M_ARENA_MAX, 1);                                             // each thread's arena would take 64 MB of it
+    mallopt(M_MMAP_THRESHOLD, 1 << 22), mallopt(M_TRIM_THRESHOLD, 1 << 22);  // arrays that are freed give theirs back
+  }
   if (!limits.seconds) return;
   std::signal(SIGXCPU, time_is_up);
   limit(RLIMIT_CPU, std::ceil(*limits.seconds));

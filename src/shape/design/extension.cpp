@@ -92,22 +92,10 @@ Directions directions(const BoundaryMotion& motion, const std::vector<char>& fix
   return out;
 }
 
-/// 2 ε:ε − (div)² = |∇V|² + ∇V:∇Vᵀ − (div V)²: Hooke's law with λ = −μ.
-elasticity::Hooke dirichlet(int dimension) {
-  elasticity::Hooke hooke;
-  hooke.dimension = dimension;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) {
-      hooke.c[i][j][i][j] += 1;
-      hooke.c[i][j][j][i] += 1;
-      hooke.c[i][i][j][j] -= 1;
-    }
-  return hooke;
-}
-
+/// Of 2 ε:ε − (div)² = |∇V|² + ∇V:∇Vᵀ − (div V)²: Hooke's law with λ = −μ.
 SparseMatrix stiffness(const mesh::Mesh& mesh) {
   const std::vector<double> zero(mesh.coordinates.size(), 0.0);
-  const elasticity::MaterialField material(dirichlet(mesh.dimension()));
+  const elasticity::MaterialField material(elasticity::by_lame(-1, 1, mesh.dimension()));
   return elasticity::assemble(mesh, material, {}, elasticity::number(mesh, std::vector<char>(zero.size(), 0), zero));
 }
 
