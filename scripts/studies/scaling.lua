@@ -9,7 +9,7 @@
 -- What memory allows is measured beside it: RANKS processes that know nothing of each other, each with a cube of its own.
 -- Seconds count from before the mesh is made until the answer is known: several ranks refine their shares within the solve, one process before it. Each process does
 -- that twice, and the second time counts: the first takes memory from the system, which costs up to seconds on a virtual machine. One process uses the cores in turn.
--- Prints the seconds and the efficiency: seconds of one process, times the cells' ratio, over RANKS times the seconds. The clock has steps of 0.01 s: N ≥ 32 for numbers.
+-- Prints the seconds and the efficiency: seconds of one process, times the cells' ratio, over RANKS times the seconds. The clock has steps of 0.01 s, so N should be 32 or more.
 
 local n <const>, runs <const>, ranks <const> = tonumber(arg[1]) or 32, tonumber(arg[2]) or 4, tonumber(arg[3]) or 2
 local refine <const> = tonumber(arg[4]) or 1

@@ -118,24 +118,26 @@ void for_each_load_point(const mesh::Mesh& mesh, Visit&& visit) {
   }
 }
 
-/// c_ikjl g_kl in place of g. In isotropic material that is λ g_ij + μ (g_ji + δ_ij g_kk).
+/// Replaces g by its contraction with Hooke's tensor, c_ikjl g_kl. In isotropic material that is λ g_ij + μ (g_ji + δ_ij g_kk).
 template <int d>
 void contract(const Hooke& h, double g[d][d]) {
-  double of[d][d], trace = 0;
-  for (int i = 0; i < d; ++i) {
-    trace += g[i][i];
-    for (int j = 0; j < d; ++j) of[i][j] = g[i][j];
-  }
+  double of[d][d];
+  std::copy_n(&g[0][0], d * d, &of[0][0]);
   const double lambda = h.c[0][0][1][1], mu = h.c[0][1][0][1];
+  double trace = 0;
+  for (int i = 0; i < d; ++i) trace += of[i][i];
+  const auto general = [&](int i, int j) {
+    double sum = 0;
+    for (int k = 0; k < d; ++k)
+      for (int l = 0; l < d; ++l) sum += h.c[i][k][j][l] * of[k][l];
+    return sum;
+  };
   for (int i = 0; i < d; ++i)
-    for (int j = 0; j < d; ++j) {
-      g[i][j] = h.isotropic ? lambda * of[i][j] + mu * (of[j][i] + (i == j ? trace : 0)) : 0;
-      for (int k = 0; k < d && !h.isotropic; ++k)
-        for (int l = 0; l < d; ++l) g[i][j] += h.c[i][k][j][l] * of[k][l];
-    }
+    for (int j = 0; j < d; ++j) g[i][j] = h.isotropic ? lambda * of[i][j] + mu * (of[j][i] + (i == j ? trace : 0)) : general(i, j);
 }
 
-/// k[a][b][i][j] = ∫ ∂_k φ_a c_ikjl ∂_l φ_b over the cell, for a ≥ b: ∫ ∂_k φ_a ∂_l φ_b first, since Hooke's tensor is the same all over the cell.
+/// k[a][b][i][j] = ∫ ∂_k φ_a c_ikjl ∂_l φ_b over the cell, for a ≥ b. Hooke's tensor is constant in a cell, so that ∂_k φ_a ∂_l φ_b is integrated first and
+/// contracted with it once.
 template <class E>
 void stiffness(const double x[][E::dim], const Hooke& h, double k[][E::nodes][E::dim][E::dim]) {
   constexpr int d = E::dim;

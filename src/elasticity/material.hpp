@@ -21,7 +21,7 @@ struct Hooke {
   bool operator==(const Hooke&) const = default;
 };
 
-/// Isotropic material with Lamé's parameters, zz_factor 0.
+/// Isotropic material with Lamé's parameters λ and μ. Its zz_factor is 0.
 Hooke by_lame(double lambda, double mu, int dimension);
 /// Isotropic material with Young's modulus E and Poisson's ratio nu.
 Hooke isotropic(double E, double nu, int dimension, Plane plane);

@@ -66,7 +66,7 @@ std::array<double, 8> shares(const ElementTopology& t, int node) {
   return share;
 }
 
-/// Of a simplex of order 2: ∂x/∂λ_i of Σ λ_i(2λ_i − 1) x_i + Σ 4λ_iλ_j x_ij.
+/// ∂x/∂λ_i in a simplex of order 2, where x = Σ λ_i(2λ_i − 1) x_i + Σ 4λ_iλ_j x_ij.
 Point simplex_derivative(const Mesh& mesh, const ElementTopology& t, const int* n, const std::array<double, 8>& lambda, int i) {
   Point d{0, 0, 0};
   add(d, 4 * lambda[i] - 1, mesh.point(n[i]));
@@ -77,7 +77,7 @@ Point simplex_derivative(const Mesh& mesh, const ElementTopology& t, const int* 
   return d;
 }
 
-/// The Jacobian of a simplex where ∂x/∂λ_i is `derivative(i)`.
+/// The Jacobian of a simplex at a point where `derivative(i)` gives ∂x/∂λ_i.
 template <class Derivative>
 double simplex_jacobian_at(int dimension, const Derivative& derivative) {
   const Point first = derivative(0);

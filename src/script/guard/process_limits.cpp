@@ -66,8 +66,8 @@ void set_limits(const ProcessLimits& limits) {
     limit(RLIMIT_AS, *limits.memory);
   }
   if (std::isfinite(address_space_left())) {
-    mallopt(M_ARENA_MAX, 1);                                             // each thread's arena would take 64 MB of it
-    mallopt(M_MMAP_THRESHOLD, 1 << 22), mallopt(M_TRIM_THRESHOLD, 1 << 22);  // arrays that are freed give theirs back
+    mallopt(M_ARENA_MAX, 1);  // each thread's arena would take 64 MB of address space
+    mallopt(M_MMAP_THRESHOLD, 1 << 22), mallopt(M_TRIM_THRESHOLD, 1 << 22);  // a freed array gives its address space back
   }
   if (!limits.seconds) return;
   std::signal(SIGXCPU, time_is_up);

@@ -92,7 +92,7 @@ Directions directions(const BoundaryMotion& motion, const std::vector<char>& fix
   return out;
 }
 
-/// Of 2 ε:ε − (div)² = |∇V|² + ∇V:∇Vᵀ − (div V)²: Hooke's law with λ = −μ.
+/// The stiffness for the energy density 2 ε:ε − (div V)² = |∇V|² + ∇V:∇Vᵀ − (div V)²: Hooke's law with λ = −μ.
 SparseMatrix stiffness(const mesh::Mesh& mesh) {
   const std::vector<double> zero(mesh.coordinates.size(), 0.0);
   const elasticity::MaterialField material(elasticity::by_lame(-1, 1, mesh.dimension()));
