@@ -1,7 +1,6 @@
 #include "mesh/element.hpp"
 
 #include <algorithm>
-#include <array>
 
 namespace dotyk::mesh {
 namespace {
@@ -23,8 +22,7 @@ ElementTopology with_second_order(ElementTopology t, const char* name, std::vect
   return t;
 }
 
-/// In the order of Element.
-std::array<ElementTopology, 8> topologies() {
+std::array<ElementTopology, 8> all_topologies() {
   const ElementTopology triangle{"P1", "triangle", "triangles", 2, 3, 3, 2, {{0, 1}, {1, 2}, {2, 0}}};
   const ElementTopology quadrilateral{"Q1", "quadrilateral", "quadrilaterals", 2, 4, 4, 2, {{0, 1}, {1, 2}, {2, 3}, {3, 0}}};
   const ElementTopology tetrahedron{"P1", "tetrahedron", "tetrahedra", 3, 4, 4, 3, {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
@@ -42,10 +40,7 @@ std::array<ElementTopology, 8> topologies() {
 
 }  // namespace
 
-const ElementTopology& topology(Element element) {
-  static const auto all = topologies();
-  return all.at(static_cast<std::size_t>(element));
-}
+const std::array<ElementTopology, 8> topologies = all_topologies();
 
 int node_between(const ElementTopology& t, std::vector<int> corners) {
   std::sort(corners.begin(), corners.end());

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <string>
+#include <array>
 #include <vector>
 
 namespace dotyk::mesh {
@@ -39,7 +39,8 @@ struct ElementTopology {
   bool simplex() const { return corners == dimension + 1; }
 };
 
-const ElementTopology& topology(Element element);
+extern const std::array<ElementTopology, 8> topologies;  ///< in the order of Element
+inline const ElementTopology& topology(Element element) { return topologies[static_cast<int>(element)]; }
 /// ElementTopology's `nodes` and `dimension`, computed inline because inner loops ask for them.
 constexpr int nodes_of(Element element) {
   constexpr int nodes[] = {3, 4, 4, 8, 6, 9, 10, 27};

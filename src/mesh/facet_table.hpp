@@ -62,17 +62,16 @@ class FacetTable {
  private:
   /// The facet of a number: facet l of cell c has the number c · facets + l.
   Facet facet(int number) const { return {number / topology_.facets, number % topology_.facets}; }
-  int corner(Facet f, int k) const { return mesh_.cell(f.cell)[topology_.facet_nodes[f.local][k]]; }
   int least_corner(int number) const {
     const Facet f = facet(number);
-    int least = corner(f, 0);
-    for (int k = 1; k < topology_.facet_corners; ++k) least = std::min(least, corner(f, k));
+    int least = mesh_.facet_node(f, 0);
+    for (int k = 1; k < topology_.facet_corners; ++k) least = std::min(least, mesh_.facet_node(f, k));
     return least;
   }
   Corners corners_of(int number) const {
     const Facet f = facet(number);
     int nodes[4];
-    for (int k = 0; k < topology_.facet_corners; ++k) nodes[k] = corner(f, k);
+    for (int k = 0; k < topology_.facet_corners; ++k) nodes[k] = mesh_.facet_node(f, k);
     return sorted(nodes, topology_.facet_corners);
   }
 
