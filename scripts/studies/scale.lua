@@ -1,23 +1,19 @@
--- How far each method carries: seconds and memory against unknowns, and what multigrid's iterations grow with.
+-- How far each method carries: seconds and bytes against unknowns, where the methods cross, and what multigrid's iterations grow with.
 --
 --   OPENBLAS_NUM_THREADS=1 ./dotyk scripts/studies/scale.lua [N…]
 --
 -- S3, a rigid paraboloid on a cube of N³ cells of six tetrahedra: by factors (pdas), by FETI on cubes of 8³ cells, by multigrid with levels of
--- aggregates (algebraic) and of coarser meshes (geometric). Then contact against one linear solve by the same hierarchy, assembly on neither side:
--- frictionless, with Coulomb's friction, and two blocks whose meshes do not match. Then iterations of conjugate gradients a Newton step against the
--- size, the contact, friction, contrast, Poisson's ratio and stretched cells: multigrid loses its speed with nearly incompressible material and with cells
--- that are long in one direction, as theory says of point smoothers (Trottenberg, Oosterlee, Schüller 2001, §5.1). Energies agree to 1e-9. Last, on paper,
--- what a billion unknowns need on a thousand ranks.
+-- aggregates (algebraic) and of coarser meshes (geometric). Each solution has a process of its own. Its bytes are the most memory that this process takes:
+-- program, mesh, results and all. Its seconds are those of the solution: of two runs the faster one counts, where they take less than 5 s.
+-- A small cube before it takes the time in which MPI starts (0.2 s). Energies agree to 1e-9 of their size, FETI's to 1e-6. Then contact against one linear
+-- solve by the same hierarchy, assembly on neither side: frictionless, with Coulomb's friction, and two blocks whose meshes do not match. Then iterations of
+-- conjugate gradients a Newton step against the size, ranks, the depth of the contact, friction, contrast, Poisson's ratio and stretched cells: multigrid loses
+-- its speed with nearly incompressible material and with cells that are long in one direction, as theory says of point smoothers (Trottenberg, Oosterlee,
+-- Schüller 2001, §5.1). Last, on paper, what a billion unknowns need on a thousand ranks. Draws images/scale.png.
 
-local sizes = {}
-for _, n in ipairs(arg) do sizes[#sizes + 1] = tonumber(n) end
-if #sizes == 0 then sizes = { 8, 16, 24, 32 } end
-local last <const> = sizes[#sizes]
-local S <const> = dotyk.solver
-
--- 1. Scenes.
 local scenes <const> = include "../lib/scale_scenes.lua"
 local cube <const>, blocks <const> = scenes.cube, scenes.blocks
+local S <const> = dotyk.solver
 
 local function solved(method, scene)
   local s <const> = method:solve(scene)
@@ -25,44 +21,101 @@ local function solved(method, scene)
   return s
 end
 
--- 2. Seconds and memory.
+-- 1. One solution in a process of its own.
 local multigrid <const> = S.multigrid{}
 local methods <const> = {
-  { "factors", function() return S.pdas{} end, most = 32 },
-  { "FETI", function(n) return S.feti{ subdomains = { n // 8, n // 8, n // 8 } } end },
-  { "aggregates", function() return S.multigrid{ levels = "aggregates" } end },
   { "coarser meshes", function() return multigrid end },
+  { "aggregates", function() return S.multigrid{ levels = "aggregates" } end },
+  { "FETI", function(n) return S.feti{ subdomains = { (n + 4) // 8, (n + 4) // 8, (n + 4) // 8 } } end },
+  { "factors", function() return S.pdas{} end, most = 40 },
 }
-for _, method in ipairs(methods) do method.series = { name = method[1], x = {}, y = {} } end
-print "Seconds, and megabytes of what solves linear systems"
-do
-  local head = "  n  unknowns"
-  for _, method in ipairs(methods) do head = head .. ("%24s"):format(method[1]) end
-  print(head)
+local program <const> = io.popen("readlink /proc/$PPID/exe"):read "l"
+local function one(method, n, ranks, refine)
+  local pipe <close> = io.popen(("OPENBLAS_NUM_THREADS=1 '%s' '%s' one %d %d %d %d 2>&1"):format(program, arg[0], method, n, ranks or 1, refine or 0))
+  local told <const> = pipe:read "a"
+  return load(told:match "return {.*}" or error("scale: " .. told, 0))()
 end
-for _, n in ipairs(sizes) do
-  local line, energy, unknowns = "", nil, 0
-  for _, method in ipairs(methods) do
-    if n <= (method.most or math.huge) and n >= 8 then
-      local s <const> = solved(method[2](n), cube(n))
-      energy, unknowns = energy or s.energy, s.unknowns
-      assert(math.abs(s.energy / energy - 1) < (method[1] == "FETI" and 1e-6 or 1e-9), "the methods do not agree")
-      line = line .. ("%13.2f s %6.0f MB"):format(s.time.total, s.factor_bytes / 1e6)
-      table.insert(method.series.x, s.unknowns)
-      table.insert(method.series.y, s.time.total)
-    else
-      line = line .. (" "):rep(24)
+if arg[1] == "one" then -- this is such a process
+  local method <const>, n <const>, ranks <const>, refine <const> = methods[tonumber(arg[2])][2], tonumber(arg[3]), tonumber(arg[4]), tonumber(arg[5])
+  if ranks > 1 then dotyk.ranks(ranks) end
+  solved(method(8), cube(4))
+  local s <const> = solved(method(n), cube(n, { refine = refine }))
+  local cg <const>, newton <const> = s.multigrid and s.multigrid.cg or 0, s.multigrid and s.multigrid.newton or 0
+  -- The peaks of the other ranks, which are grandchildren of this one.
+  local status <const> = io.popen "cd /proc; for p in $(cat $PPID/task/*/children); do for r in $(cat $p/task/*/children); do cat $r/status; done; done 2>&1"
+  local other = 0
+  for kilobytes in status:read "a":gmatch "VmHWM:%s*(%d+)" do other = math.max(other, kilobytes * 1e3) end
+  print(("return { unknowns = %d, energy = %.17g, seconds = %.17g, iterate = %.17g, bytes = %.17g, other = %.17g,"):format(s.unknowns, s.energy, s.time.total,
+    s.time.iterate, include "../lib/peak_memory.lua"() * 1e9, other), ("multigrid = { cg = %d, newton = %d }, converged = true }"):format(cg, newton))
+  return
+end
+
+-- 2. Seconds and bytes, and where they cross.
+local sizes = {}
+for _, n in ipairs(arg) do sizes[#sizes + 1] = tonumber(n) end
+if #sizes == 0 then sizes = { 8, 16, 24, 32, 40, 64 } end
+local last <const>, middle <const> = sizes[#sizes], math.min(sizes[#sizes], 32)
+io.write "Seconds, megabytes, and kilobytes an unknown\n  n  unknowns"
+for _, method in ipairs(methods) do
+  method.seconds, method.bytes = { name = method[1], x = {}, y = {} }, { name = method[1], x = {}, y = {} }
+  io.write(("%29s"):format(method[1]))
+end
+local worst, found = 0, {} -- found: what the first method has found, by size
+for i, n in ipairs(sizes) do
+  local line = ""
+  for k, method in ipairs(methods) do
+    if n <= (method.most or n) then
+      local s <const> = one(k, n)
+      if s.seconds < 5 then s.seconds = math.min(s.seconds, one(k, n).seconds) end
+      found[n] = found[n] or s
+      local differs <const> = math.abs(s.energy / found[n].energy - 1)
+      assert(differs < (method[1] == "FETI" and 1e-6 or 1e-9), "the methods do not agree")
+      worst = math.max(worst, differs)
+      line = line .. ("%9.2f s %6.0f MB %6.2f kB"):format(s.seconds, s.bytes / 1e6, s.bytes / s.unknowns / 1e3)
+      for _, what in ipairs{ "seconds", "bytes" } do method[what].x[i], method[what].y[i] = s.unknowns, s[what] end
     end
   end
-  print(("%3d%10d"):format(n, unknowns) .. line)
+  io.write(("\n%3d%10d"):format(n, found[n].unknowns), line)
+end
+print(("\nEnergies differ by %.0e of their size at most"):format(worst))
+
+-- From how many unknowns on b takes less than a, and how much there, by straight lines between logarithms. 0: at all sizes; nil: not at the last.
+local function crossing(a, b)
+  local x, y, lost = a.y[1] and 0
+  for i = 1, math.min(#a.y, #b.y) do
+    local gain <const> = math.log(a.y[i] / b.y[i])
+    if gain < 0 then
+      x = nil
+    elseif not x then
+      local t <const> = lost / (lost - gain)
+      x, y = a.x[i - 1]^(1 - t) * a.x[i]^t, a.y[i - 1]^(1 - t) * a.y[i]^t
+    end
+    lost = gain
+  end
+  return x, y
+end
+local panels <const> = {}
+for p, what in ipairs{ "seconds", "bytes" } do
+  local series <const>, marks <const> = {}, { name = "crossings", x = {}, y = {}, style = "points" }
+  print("\nFewer " .. what)
+  for k, method in ipairs(methods) do
+    series[k] = method[what]
+    for other = math.max(k + 1, 3), 4 do
+      local x <const>, y <const> = crossing(methods[other][what], method[what])
+      local from <const> = not x and "not at the last size" or x == 0 and "at all sizes" or ("from %.0f unknowns on"):format(x)
+      print(("%-14s than %-7s  %s"):format(method[1], methods[other][1], from))
+      if x and x > 0 then marks.x[#marks.x + 1], marks.y[#marks.y + 1] = x, y end
+    end
+  end
+  if marks.x[1] then series[#series + 1] = marks end
+  panels[p] = { y = what, log = "xy", series = series, slopes = { 1, p == 1 and 2 or 4 / 3 } } -- 2 and 4/3: factors of a cube, in theory
 end
 if #sizes > 1 then
-  local series = {}
-  for _, method in ipairs(methods) do series[#series + 1] = method.series end
-  dotyk.chart{ file = "images/scale.png", title = "A rigid paraboloid on a cube", x = "unknowns", y = "seconds", log = "xy", series = series, slopes = { 1, 2 } }
+  dotyk.chart{ file = "images/scale.png", title = "A rigid paraboloid on a cube", x = "unknowns", panels = panels, size = { 1000, 1100 } }
 end
 
 -- 3. Contact against one linear solve by the same hierarchy.
+solved(multigrid, cube(4)) -- MPI starts
 local function seconds(s) return s.time.total - s.time.assembly end
 print(("\nContact against one linear solve, both by multigrid, n = %d, seconds without assembly"):format(last))
 for _, case in ipairs{ { "frictionless", cube, {} }, { "Coulomb 0.3", cube, { friction = 0.3 } }, { "two blocks", blocks, {} } } do
@@ -74,27 +127,29 @@ end
 
 -- 4. What iterations grow with: of all linear systems, a step.
 print "\nIterations of conjugate gradients (Newton's steps)"
-local function row(what, values, scene)
+local function row(what, values, solution, scene)
   local line = ("%-28s"):format(what)
   for _, value in ipairs(values) do
-    local ok <const>, s = pcall(multigrid.solve, multigrid, scene(value))
+    local ok <const>, s = pcall(solution, scene and scene(value) or value)
     line = line .. ("%8s: "):format(value) .. (ok and s.converged and ("%3d (%d)"):format(s.multigrid.cg, s.multigrid.newton) or "   fails")
   end
   print(line)
 end
+local function alone(scene) return multigrid:solve(scene) end
 local n <const> = math.min(last, 16)
-row("cells along an edge", sizes, cube)
-row("depth of the paraboloid", { 0.002, 0.02, 0.1, 0.3 }, function(depth) return cube(n, { depth = depth }) end)
-row("Coulomb's coefficient", { 0.1, 0.3, 0.6, 1.0 }, function(mu) return cube(n, { friction = mu }) end)
-row("contrast of two blocks", { 1, 10, 100, 1000 }, function(contrast) return blocks(n, { contrast = contrast }) end)
-row("Poisson's ratio", { 0.3, 0.45, 0.49, 0.499 }, function(nu) return cube(n, { nu = nu }) end)
-row("height of the cells", { 1, 2, 4, 8 }, function(stretch) return cube(n, { height = stretch }) end)
+row("cells along an edge", sizes, function(cells) return found[cells] end)
+row(("ranks, %d cells"):format(middle), { 1, 2, 4 }, function(ranks) return one(1, middle, ranks) end)
+row("depth of the paraboloid", { 0.002, 0.02, 0.1, 0.3 }, alone, function(depth) return cube(n, { depth = depth }) end)
+row("Coulomb's coefficient", { 0.1, 0.3, 0.6, 1.0 }, alone, function(mu) return cube(n, { friction = mu }) end)
+row("contrast of two blocks", { 1, 10, 100, 1000 }, alone, function(contrast) return blocks(n, { contrast = contrast }) end)
+row("Poisson's ratio", { 0.3, 0.45, 0.49, 0.499 }, alone, function(nu) return cube(n, { nu = nu }) end)
+row("height of the cells", { 1, 2, 4, 8 }, alone, function(stretch) return cube(n, { height = stretch }) end)
 
 -- 5. A billion unknowns on a thousand ranks, on paper: P1 in space, a cube, what one process needs measured here, what a network takes assumed.
 do
-  local s <const> = solved(multigrid, cube(last))
+  local s <const> = found[last]
   local unknowns <const>, its <const> = s.unknowns, s.multigrid.cg
-  local iteration <const> = s.time.iterate / its / unknowns
+  local iteration <const> = s.iterate / its / unknowns
   local ranks <const>, all <const> = 1000, 1e9
   local own <const> = all / ranks
   local edge <const> = (own / 3)^(1 / 3)  -- nodes
@@ -109,19 +164,25 @@ do
   local rounds <const> = math.ceil(math.log(ranks, 2))
   local sums <const>, gathered <const> = 3 * rounds * latency, rounds * latency + 8 * whole / bandwidth
   local network <const> = messages * latency + halo / bandwidth + sums + gathered
-  local bytes <const> = include "../lib/peak_memory.lua"() * 1e9 / unknowns
+  local bytes <const> = s.bytes / unknowns
   print(("\nA billion unknowns on %d ranks, from the cube of %d³ cells (%d unknowns)"):format(ranks, last, unknowns))
-  print(("memory            %8.1f GB a rank at most, %.2f kB an unknown, by the peak of this process, which has run the other methods too"):format(own * bytes / 1e9, bytes / 1e3))
-  print(("arithmetic        %8.2f Gflop an iteration and rank, %.2f s as fast as here (%.1f Gflop/s, bound by memory)"):format(own * flops / 1e9, own * iteration,
+  print(("memory            %8.2f GB a rank, %.2f kB an unknown, as the process here had at most"):format(own * bytes / 1e9, bytes / 1e3))
+  print(("arithmetic        %8.2f Gflop an iteration and rank, %.2f s as fast as here (%.1f Gflop/s)"):format(own * flops / 1e9, own * iteration,
     flops / iteration / 1e9))
   print(("messages          %8d an iteration and rank on %d levels, %.1f MB; %.4f s at %g µs a message and %g GB/s (assumed)"):format(messages, levels, halo / 1e6,
     network, latency * 1e6, bandwidth / 1e9))
   print(("coarse levels     %8.0f unknowns and fewer, whole on each rank: %.4f s an iteration, as fast as here"):format(whole, whole * iteration))
   print(("iterations        %8d in %d steps, if they stay as here: %.0f s"):format(its, s.multigrid.newton, its * (own * iteration + whole * iteration + network)))
   print(("contact           %8.0f of %d ranks have nodes of the top; their share of rows decides about the other ranks' waiting"):format(ranks^(2 / 3), ranks))
-  local layers <const> = 3 * 6 / (all / 3)^(1 / 3) -- of nodes at the boundary, a part of all nodes
-  print(("What breaks first: without refine rank 0, which has the mesh and the numbers of all unknowns, some 90 bytes an unknown more than the others (measured on two ranks "
-    .. "at 9.9e6), 190 with two bodies that do not match (at 9.6e6): 90 and 190 GB. With refine it has three layers of nodes at the boundary, %.1f %% of all, at some 180 bytes an "
-    .. "unknown (21 of all at 9.9e6): %.1f GB. Then latency: on the coarsest level that is shared a rank has %.0f nodes, but sends more messages than on the finest"):format(
-    100 * layers, layers * all * 180 / 1e9, 8 * whole / 3 / ranks))
+  local function surplus(refine) -- of rank 0 over the other one of two
+    local s <const> = one(1, last, 2, refine)
+    assert(s.other > 0, "the other rank is not found")
+    return (s.bytes - s.other) / 1e9
+  end
+  local without <const>, with <const> = surplus(0), surplus(last < 32 and 1 or 2)
+  print "What breaks first"
+  print(("rank 0            %8.0f GB more than the others, if that grows as the unknowns do: it has the whole mesh. Here %.3f GB on two ranks"):format(
+    without * all / unknowns, without))
+  print(("with refine       %8.1f GB more, if that grows as the boundary does. Here %.3f GB"):format(with * (all / unknowns)^(2 / 3), with))
+  print(("then latency      %8.0f nodes a rank on the coarsest level that is shared, which sends more messages than the finest"):format(8 * whole / 3 / ranks))
 end

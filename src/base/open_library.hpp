@@ -47,8 +47,9 @@ inline LibraryPlace look_for(const SharedLibrary& library) {
   return result;
 }
 
-/// Opens what look_for() found.
+/// Opens what look_for() found, if it is not open.
 inline void* open_library(const SharedLibrary& library, const std::string& place) {
+  if (void* handle = dlopen(place.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NOLOAD)) return handle;
   require_address_space(library.bytes, library.what);
   if (void* handle = dlopen(place.c_str(), RTLD_NOW | RTLD_LOCAL)) return handle;
   const char* reason = dlerror();

@@ -207,17 +207,10 @@ void Bisection::project(const std::string& part, const std::function<Point(const
     throw InputError(text("the mesh has no part '", part, "'; it has ", all.empty() ? "none" : all));
   }
   auto moved = std::make_shared<Mesh>(*old);
-  std::vector<char> seen(old->node_count(), 0);
-  for (const Facet f : found->second)
-    for (int k = 0; k < dim_; ++k) {
-      const int n = old->facet_node(f, k);
-      if (n < first_new_ || seen[n]) continue;
-      seen[n] = 1;
-      const Point x = map(old->point(n));
-      std::copy_n(x.begin(), dim_, moved->coordinates.begin() + static_cast<std::ptrdiff_t>(n) * dim_);
-    }
+  std::vector<char> made = flag_nodes(*old, found->second);
+  std::fill_n(made.begin(), first_new_, 0);
+  transform(*moved, map, made);
   if (mesh_ != old) throw InputError("the meshes were refined or projected by the function that says where nodes go");
-  check(*moved, "the mesh with the new nodes of part '" + part + "' moved");
   mesh_ = std::move(moved);
 }
 

@@ -96,10 +96,10 @@ Point facet_area_derivative(const Mesh& mesh, const std::vector<double>& V, Face
   return change;
 }
 
-void transform(Mesh& mesh, const std::function<Point(const Point&)>& map) {
+void transform(Mesh& mesh, const std::function<Point(const Point&)>& map, const std::vector<char>& flagged) {
   Mesh moved = mesh;
   for (int i = 0; i < mesh.node_count(); ++i)
-    std::copy_n(map(mesh.point(i)).begin(), mesh.dimension(), moved.coordinates.begin() + static_cast<std::ptrdiff_t>(i) * mesh.dimension());
+    if (flagged.empty() || flagged[i]) std::copy_n(map(mesh.point(i)).begin(), mesh.dimension(), moved.coordinates.begin() + static_cast<std::ptrdiff_t>(i) * mesh.dimension());
   check(moved, "the moved mesh");
   mesh = std::move(moved);
 }

@@ -114,9 +114,9 @@ void check(const Mesh& mesh, const std::string& what);
 /// at the places of nodes of order 2 (hexahedron, cells of second order): positive for a valid cell.
 double least_jacobian(const Mesh& mesh, int cell);
 
-/// Moves every node to `map(x)`. Throws InputError where a cell inverts or a
+/// Moves every node, or those flagged, to `map(x)`. Throws InputError where a cell inverts or a
 /// coordinate is not finite, and then leaves the mesh as it was.
-void transform(Mesh& mesh, const std::function<Point(const Point&)>& map);
+void transform(Mesh& mesh, const std::function<Point(const Point&)>& map, const std::vector<char>& flagged = {});
 
 /// The cells whose centre `chosen` accepts, with what is left of the parts; the facets laid bare become part
 /// `new_part` (added to one of that name). Cells and nodes keep their order. Throws InputError where no cell is left.

@@ -30,6 +30,7 @@ const SharedLibrary& petsc() {
 
 std::atomic<bool> is_open{false};     // the library
 std::atomic<bool> takes_word{false};  // the program: --worker
+std::atomic<bool> have_met{false};    // ranks that mpirun started
 
 /// A function of the library, which is opened for it.
 template <class Function>
@@ -94,6 +95,7 @@ void end_at_exit() {
 void meet_ranks() {
   door<void()>("dotyk_multigrid_meet")();
   end_at_exit();
+  have_met = true;
 }
 
 int count_ranks() {
@@ -106,7 +108,7 @@ void take_word_worker() { takes_word = true; }
 
 void start_ranks(int ranks) {
   const int there = count_ranks();
-  if (ranks == there) return;
+  if (ranks == there || have_met) return;
   if (!takes_word) throw InputError("only the program dotyk starts other processes of its own");
   if (there > 1) throw InputError(text("there are ", there, " ranks already; their number stays as it is"));
   door<void(int, const char*)>("dotyk_multigrid_spawn")(ranks, std::filesystem::read_symlink("/proc/self/exe").c_str());

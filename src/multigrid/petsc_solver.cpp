@@ -33,12 +33,14 @@ class PetscSolver final : public algebra::SpdSolver {
         workers_(slices_ ? slices_->workers().next() : workers_for(static_cast<double>(matrix.lower.rows()))),
         numbering_(slices_ ? slices_->numbering() : std::make_shared<const Numbering>(numbered(matrix, workers_.ranks().count()))), sharing_(sharing_unknowns(matrix)) {
     const Ranks& ranks = workers_.ranks();
-    Pieces pieces(matrix, *numbering_, ranks.count());
+    auto pieces = std::make_unique<Pieces>(matrix, *numbering_, ranks.count());
     std::shared_ptr<const RankSlices> coarser;
     ranks.together([&] {
       const bool asked = matrix.coarser && geometric_;
       const Workers of_coarser = workers_.next();
-      cycle_ = std::make_unique<Cycle>(ranks, share_out(pieces, asked ? of_coarser.number() : 0));
+      Piece own = share_out(*pieces, asked ? of_coarser.number() : 0);
+      pieces.reset();
+      cycle_ = std::make_unique<Cycle>(ranks, std::move(own));
       if (asked)
         coarser = std::make_shared<const RankSlices>(of_coarser, Numbering(*numbering_, matrix.coarse->front()), cycle_->take_coarser(),
                                                      without_first(cycle_->functions()), cycle_->coarser_load());

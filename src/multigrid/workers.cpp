@@ -5,9 +5,13 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <functional>
 #include <map>
 #include <memory>
 #include <new>
+#include <string>
 
 #include "base/text.hpp"
 #include "multigrid/cycle/cycle.hpp"
@@ -31,13 +35,27 @@ MPI_Comm& meeting() {
   return comm;
 }
 
+/// Ends the run where ranks are of different builds, as on other machines: they would not understand one another.
+void require_same_program(const Ranks& ranks) {
+  std::ifstream file("/proc/self/exe", std::ios::binary);
+  std::string program(std::filesystem::file_size("/proc/self/exe"), '\0');
+  file.read(program.data(), static_cast<std::streamsize>(program.size()));
+  constexpr int kExact = 11;  // bits less than a double tells apart
+  const auto own = static_cast<double>(std::hash<std::string>{}(program) >> kExact);
+  if (ranks.greatest(own) == -ranks.greatest(-own)) return;
+  if (ranks.own() == 0) ranks.abort("the ranks are different builds of dotyk");
+  MPI_Barrier(ranks.comm());  // until that ends this one
+}
+
 /// All processes. The communicator is our own, so that PETSc's messages are not taken for ours.
 const Ranks& world() {
   static const Ranks ranks = [] {
     start_petsc();
     MPI_Comm own = spawned_world();
     if (own == MPI_COMM_NULL) MPI_Comm_dup(MPI_COMM_WORLD, &own);
-    return Ranks(own);
+    const Ranks all(own);
+    if (!all.alone()) require_same_program(all);
+    return all;
   }();
   return ranks;
 }

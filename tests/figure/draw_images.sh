@@ -29,7 +29,7 @@ long="examples/punch studies/accuracy/cattaneo_mindlin studies/accuracy/mortar p
 timed="studies/accuracy/adaptivity studies/matrices/fclib studies/methods/feti_scaling studies/accuracy/second_order
   studies/stability/interrupted studies/work_precision/ball studies/work_precision/beam studies/work_precision/friction
   studies/work_precision/hertz studies/work_precision/plate studies/work_precision/semicoercive studies/work_precision/three_blocks
-  studies/work_precision/tolerances"
+  studies/work_precision/tolerances studies/scale"
 
 usage() { sed -n '2,10s/^# \{0,1\}//p' "$0"; exit 2; }
 same=

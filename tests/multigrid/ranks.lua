@@ -1,4 +1,4 @@
--- Several ranks from a script: what is refused in words, and that a free body's answer is the same.
+-- Several ranks, by dotyk.ranks, --ranks and mpirun: what is refused in words, the same answers as on one, and the end of all when one is killed.
 local check <const> = require "check"
 if not pcall(dotyk.solver.multigrid) then return end
 local program <const> = io.popen("readlink /proc/$PPID/exe"):read "l"
@@ -17,12 +17,13 @@ local function cube(n, free)
   return dotyk.solver.multigrid{}:solve(s), b
 end
 ]]
-local function told(code, options)
+local function told(code, options, by)
   local file = os.tmpname()
   local out <const> = assert(io.open(file, "w"))
   out:write(scene, code)
   out:close()
-  local pipe <const> = io.popen(("OPENBLAS_NUM_THREADS=1 timeout 250 '%s' %s '%s' 2>&1; echo status $?"):format(program, options or "", file))
+  local command <const> = "OPENBLAS_NUM_THREADS=1 timeout 250 %s '%s' %s '%s' 2>&1 </dev/null; echo status $?"
+  local pipe <const> = io.popen(command:format(by or "", program, options or "", file))
   local text <const> = pipe:read "a"
   pipe:close()
   os.remove(file)
@@ -31,6 +32,16 @@ end
 local function says(text, words, status)
   check.that(text:find(words, 1, true) and text:find("status " .. status, 1, true), text)
 end
+local function numbers(text)
+  local all <const> = {}
+  for line in text:gmatch "|(.-)|" do
+    all[#all + 1] = {}
+    for number in line:gmatch "%S+" do table.insert(all[#all], tonumber(number)) end
+  end
+  return all
+end
+local mpirun <const> = os.execute "command -v mpirun >/dev/null" and "mpirun --allow-run-as-root --oversubscribe -n 2"
+if not mpirun then print "mpirun is not installed: not tested" end
 
 if not told("cube(4)"):find("libpetsc", 1, true) then
   says(told "dotyk.ranks(2) dotyk.ranks(2) dotyk.ranks(3)", "there are 2 ranks already", 1)
@@ -47,27 +58,39 @@ if not told("cube(4)"):find("libpetsc", 1, true) then
     local x, y = 0, 0
     for i = 0, 4 do for j = 0, 4 do local ux, uy = s:displacement(b, i / 4, j / 4, 0.5) x, y = x + ux / 25, y + uy / 25 end end
     print(("|%.12g|%.3g|%.3g|"):format(s.energy, x, y)) ]]
-  -- Small pieces, most of whose rows are beside other ranks' and coupled by the rows of the glue: sweeps of each rank alone would diverge.
-  local glued <const> = [[ local function block(name, from, to, n)
-      return dotyk.body{ name = name, material = dotyk.material{ E = 1000, nu = 0.3 }, mesh = dotyk.mesh.box{ from = from, to = to, cells = {n, n, 8} } }
+  -- What a script prints on several ranks is what it prints on one.
+  local function same(code, ...)
+    local alone <const> = numbers(told(code))[1]
+    for _, ranks in ipairs{ ... } do
+      local text <const> = ranks == "mpirun" and told("assert(dotyk.ranks() == 2)" .. code, "", mpirun) or told(code, "--ranks " .. ranks)
+      check.that(text:find "status 0" and #numbers(text) == 1, text)
+      for k, number in ipairs(alone) do check.near(numbers(text)[1][k], number, 1e-9 * math.abs(number), "number " .. k .. " on " .. ranks .. " ranks") end
     end
-    local lower, upper = block("lower", {0, 0, 0}, {1, 1, 0.5}, 16), block("upper", {0, 0, 0.5}, {1, 1, 1}, 15)
-    lower:part"bottom":fix()
-    upper:part"top":displace{ x = 0, y = 0, z = -0.01 }
-    local scene = dotyk.scene{ lower, upper }
-    scene:glue{ upper:part"bottom", lower:part"top" }
-    print(("|%.12g|"):format(dotyk.solver.multigrid{}:solve(scene).energy)) ]]
-  local energies <const> = {}
-  for _, ranks in ipairs{ 1, 4 } do energies[ranks] = tonumber(told("dotyk.ranks(" .. ranks .. ")" .. glued):match "|(.-)|") end
-  check.near(energies[4], energies[1], 1e-9 * energies[1])
+  end
+  -- Small pieces, most of whose rows are beside other ranks' and coupled by the rows of the glue: sweeps of each rank alone would diverge. FETI
+  -- and beams stay on rank 0.
+  same([[ local function block(name, from, to, n)
+      return dotyk.body{ name = name, material = dotyk.material{ E = 1000, nu = 0.3 }, mesh = dotyk.mesh.box{ from = from, to = to, cells = {n, n, n // 2} } }
+    end
+    local function glued(n)
+      local lower, upper = block("lower", {0, 0, 0}, {1, 1, 0.5}, n), block("upper", {0, 0, 0.5}, {1, 1, 1}, n - 1)
+      lower:part"bottom":fix()
+      upper:part"top":displace{ x = 0, y = 0, z = -0.01 }
+      local scene = dotyk.scene{ lower, upper }
+      scene:glue{ upper:part"bottom", lower:part"top" }
+      return scene
+    end
+    local signorini = { deflection = dotyk.law.signorini() }
+    local beam = dotyk.beam{ cells = 20, load = -1, left = signorini, right = signorini }
+    local large, small = dotyk.solver.multigrid{}:solve(glued(16)), dotyk.solver.feti{}:solve(glued(6))
+    print(("|%.12g %.12g %.12g|"):format(large.energy, small.energy, dotyk.solve(beam):deflection(0.5))) ]],
+    4, 8, mpirun and "mpirun")
   -- Points that slip: conjugate residuals on vectors that lie with the ranks.
-  local slips <const> = [[ local b = dotyk.body{ material = dotyk.material{ E = 1000, nu = 0.3 }, mesh = dotyk.mesh.box{ from = {0,0,0}, to = {1,1,1}, cells = {12,12,12} } }
+  same([[ local b = dotyk.body{ material = dotyk.material{ E = 1000, nu = 0.3 }, mesh = dotyk.mesh.box{ from = {0,0,0}, to = {1,1,1}, cells = {12,12,12} } }
     b:part"bottom":fix()
     local s = dotyk.scene{ b }
     s:contact{ b:part"top", rigid = dotyk.rigid.gap{ normal = {0, 0, 1}, gap = function(x, y) return ((x - 0.5)^2 + (y - 0.5)^2) / 2 - 0.05 end }, friction = dotyk.friction.coulomb(0.3), interference = true }
-    print(("|%.12g|"):format(dotyk.solver.multigrid{}:solve(s).energy)) ]]
-  for _, ranks in ipairs{ 1, 3 } do energies[ranks] = tonumber(told("dotyk.ranks(" .. ranks .. ")" .. slips):match "|(.-)|") end
-  check.near(energies[3], energies[1], 1e-9 * energies[1])
+    print(("|%.12g|"):format(dotyk.solver.multigrid{}:solve(s).energy)) ]], 3)
   for _, ranks in ipairs{ 1, 2 } do
     local text <const> = told("dotyk.ranks(" .. ranks .. ")" .. free)
     local energy <const>, x <const>, y <const> = text:match "|(.-)|(.-)|(.-)|"
@@ -183,20 +206,12 @@ if not told("cube(4)"):find("libpetsc", 1, true) then
       end
     end
     blocks() plane() cube() quadratic() clamped() apart() loaded() ]]
-  local function numbers(text)
-    local all <const> = {}
-    for line in text:gmatch "|(.-)|" do
-      all[#all + 1] = {}
-      for number in line:gmatch "%S+" do table.insert(all[#all], tonumber(number)) end
-    end
-    return all
-  end
   local file <const> = os.tmpname()
   refined = ("local FILE = %q\n"):format(file) .. refined
-  local alone <const> = numbers(told("dotyk.ranks(1)" .. refined))
+  local alone <const> = numbers(told(refined))
   check.that(#alone == 6 + 2 * 7 + 1 + 5, "six scenes on one rank, and one in two steps")
   for _, ranks in ipairs{ 2, 3, 5 } do
-    local text <const> = told("dotyk.ranks(" .. ranks .. ")" .. refined)
+    local text <const> = ranks == 2 and mpirun and told(refined, "", mpirun) or told(refined, "--ranks " .. ranks)
     local several <const> = numbers(text)
     check.that(#several == #alone, text)
     for k, own in ipairs(alone) do
@@ -209,6 +224,9 @@ if not told("cube(4)"):find("libpetsc", 1, true) then
     end
   end
 
+  os.remove(file)
+
+  -- What is refused, all by one run, which goes on after it.
   local body <const> = [[dotyk.ranks(2)
     local function body(more)
       local all = { name = "b", material = dotyk.material{ E = 1000, nu = 0.3 }, refine = 2, mesh = dotyk.mesh.box{ from = {0,0,0}, to = {1,1,1}, cells = {4,4,4} } }
@@ -217,17 +235,48 @@ if not told("cube(4)"):find("libpetsc", 1, true) then
     end
     local function held(more) local b = body(more) b:part"bottom":fix() b:part"top":load{0, 0, -1} return b end
     local function solved(...) return dotyk.solver.multigrid{}:solve(dotyk.scene{ ... }) end
+    local function try(f) print("|" .. tostring(select(2, pcall(f))):gsub("|", "") .. "|") end
     ]]
-  local function refused(code, words) says(told(body .. code), words, 1) end
-  refused("dotyk.solver.pdas{}:solve(dotyk.scene{ held() })", "dotyk.solver.multigrid{} works there")
-  refused("dotyk.solver.multigrid{ levels = 'aggregates' }:solve(dotyk.scene{ held() })", "dotyk.solver.multigrid{} works there")
-  refused("solved(body())", "'b' is not held")
-  refused("local b = body{ force = {0, 0, -1} } local s = dotyk.scene{ b } s:contact{ b:part'bottom', rigid = dotyk.rigid.plane{ point = {0,0,0}, normal = {0,0,1} } } dotyk.solver.multigrid{}:solve(s)",
-          "nothing notices 'b'")
-  refused("solved(held(), held{ name = 'c', refine = 1 })", "on several ranks all bodies of a scene have the same")
-  refused("solved(held()):distance(solved(held()))", "a distance of solutions needs them")
-  refused("solved(held()):write('/nowhere/a.pvtu')", "/nowhere")
-  refused("solved(held()):render{ file = os.tmpname() .. '.png', cut = { point = {0.5, 0.5, 0.5}, normal = {0, 1, 0} } }", "a cut needs them")
-  refused("local b = held() solved(b):displacement(b, 0.5, 0.5, 1.5)", "lies outside 'b' at rest")
-  says(told(body .. "local b = held() print(b, b.node_count, b.cell_count) print(dotyk.scene{ b }:plan()) print(dotyk.solve(dotyk.scene{ b }))"), "4913 nodes", 0)
+  local refused <const> = {
+    { "dotyk.solver.pdas{}:solve(dotyk.scene{ held() })", "dotyk.solver.multigrid{} works there" },
+    { "dotyk.solver.multigrid{ levels = 'aggregates' }:solve(dotyk.scene{ held() })", "dotyk.solver.multigrid{} works there" },
+    { "solved(body())", "'b' is not held" },
+    { "local b = body{ force = {0, 0, -1} } local s = dotyk.scene{ b } s:contact{ b:part'bottom', rigid = dotyk.rigid.plane{ point = {0,0,0}, normal = {0,0,1} } } dotyk.solver.multigrid{}:solve(s)",
+      "nothing notices 'b'" },
+    { "solved(held(), held{ name = 'c', refine = 1 })", "on several ranks all bodies of a scene have the same" },
+    { "solved(held()):distance(solved(held()))", "a distance of solutions needs them" },
+    { "solved(held()):write('/nowhere/a.pvtu')", "/nowhere" },
+    { "solved(held()):render{ file = 'cut.png', cut = { point = {0.5, 0.5, 0.5}, normal = {0, 1, 0} } }", "a cut needs them" },
+    { "local b = held() solved(b):displacement(b, 0.5, 0.5, 1.5)", "lies outside 'b' at rest" } }
+  local code = body
+  for _, case in ipairs(refused) do code = code .. "try(function() " .. case[1] .. " end)\n" end
+  local text <const> = told(code .. "local b = held() print(b, b.node_count, b.cell_count) print(dotyk.scene{ b }:plan()) print(dotyk.solve(dotyk.scene{ b }))")
+  local answer <const> = text:gmatch "|(.-)|"
+  for _, case in ipairs(refused) do
+    local words <const> = answer() or text
+    check.that(words:find(case[2], 1, true), case[1] .. ": " .. words)
+  end
+  says(text, "4913 nodes", 0)
+
+  if mpirun then
+    -- Under mpirun its number of ranks stands, whatever the script asks for. After a solution a script may start mpirun itself.
+    says(told("print('|' .. dotyk.ranks(3) .. '|')", "", mpirun), "|2|", 0)
+    says(told("cube(4) os.execute [[" .. mpirun .. " '" .. program .. "' -e 'print(\"|\" .. dotyk.ranks())']]"), "|2", 0)
+    -- Other builds of the program would not understand its messages.
+    local other <const> = os.tmpname()
+    os.execute(("cp '%s' '%s' && echo >>'%s' && chmod +x '%s'"):format(program, other, other, other))
+    local both <const> = told("", ("-e 'print(1)' : -n 1 '%s'"):format(other), mpirun:gsub("%-n 2", "-n 1"))
+    os.remove(other)
+    check.that(both:find("the ranks are different builds of dotyk", 1, true) and not both:find("status 0", 1, true), both)
+
+    -- A rank that is killed while it solves ends all that mpirun has started.
+    local dies <const> = told([[
+      os.execute [=[ranks=$(cat /proc/$(cut -d ' ' -f 4 /proc/$PPID/stat)/task/*/children); echo "|$ranks|"
+        (sleep 1; for r in $ranks; do [ $r = $PPID ] || kill -9 $r; done) &]=]
+      while true do cube(20) end ]], "", mpirun)
+    local first <const>, second <const> = dies:match "|(%d+) (%d+) |"
+    check.that(first and dies:find "status [1-9]" and not dies:find "status 124", dies)
+    local state <const> = ("grep -s '^State:.[^ZX]' /proc/%d/status /proc/%d/status"):format(first, second)
+    check.that(os.execute("for i in $(seq 50); do " .. state .. " >/dev/null || exit 0; sleep 0.1; done; exit 1"), "a rank is left")
+  end
 end

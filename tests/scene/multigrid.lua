@@ -245,3 +245,14 @@ check.that(levels(m) == 2 and levels(m:refined(2)) == 4, "levels")
 local turned <const> = m:refined(2)
 turned:transform(function(x, y, z) return x + 0.1 * z^2, y, z end)
 check.that(levels(turned) == 4, "levels of a mesh that was moved")
+
+-- New nodes of a curved boundary are put onto it, and the levels stay: of 128 chords none is farther than 3.1e-4 from the circle, of the first 16 up to 0.02.
+local round = dotyk.mesh.disc{ center = {0, 0}, radius = 1, cells = 4 }
+for _ = 1, 3 do round = round:refined():transform(function(x, y) local r <const> = math.sqrt(x^2 + y^2) return x / r, y / r end, "boundary") end
+local disc <const> = body("disc", round)
+disc:part("below", function(_, y) return y < -0.5 end):fix()
+disc:part("above", function(_, y) return y > 0.5 end):load{ 0, -1 }
+local pressed <const> = S.multigrid{}:solve(dotyk.scene{ disc })
+check.that(pressed.converged and pressed.multigrid.levels == 4, "levels of a disc")
+for k = 0, 255 do pressed:displacement(disc, 0.9996 * math.cos(k * math.pi / 128), 0.9996 * math.sin(k * math.pi / 128)) end
+check.error(function() round:transform(function(x, y) return x, y end, "rim") end, "boundary")

@@ -79,7 +79,7 @@ local under <const> = dotyk.scene{ slab }
 local stop <const> = under:contact{ slab:part"top", rigid = dotyk.rigid.gap{ normal = { 0, 0, 1 }, gap = function() return 0.005 end } }
 local said <const> = under:plan()
 if said:find("multigrid on all", 1, true) then
-  assert(said:find("some %d+%.?%d? s on a core, where factors would take some %d+%.?%d? s"), said)
+  assert(said:find("some %d+%.?%d? s on a core and %d+ MB, where factors would take some %d+%.?%d? s on a core and %d+ MB"), said)
   local s <const> = dotyk.solve(under)
   assert(s.converged and s.method == "multigrid" and s.ordering:find("geometric multigrid", 1, true), s.ordering)
   -- What the stop bears and what the bottom bears carry the load of 27.

@@ -2,7 +2,8 @@
 --
 --   OPENBLAS_NUM_THREADS=1 ./dotyk scripts/studies/bench/gmsh_parts.lua [NODES…] [PARTS…] [aggregates|factors] [runs=5]
 --
--- A lug on a pin, a ball in a socket, a pipe's flange on its gasket and a wheel on a rail, P1, quarters or sectors of them, meshes that do not match;
+-- A lug on a pin, a ball in a socket, a pipe's flange on its gasket and a wheel on a rail, P1, quarters or sectors of them, meshes that do not match.
+-- Each body is meshed from a STEP file, which Gmsh's library has written; c++ and Gmsh's headers are needed for that. The bodies are
 -- glued, frictionless, and with Coulomb's coefficient 0.2; by the default method, or by the one that a word names: aggregates (algebraic multigrid) or
 -- factors. For each: seconds of the solve, times the glued bodies', and iterations (of conjugate gradients, too, by multigrid); and the most memory that
 -- the process has had. The three are taken in turn, runs= times, 1 unless given; medians of the seconds and of the runs' ratios.
@@ -21,9 +22,35 @@ if #names == 0 then names = { "lug", "ball", "flange", "wheel" } end
 local peak_memory <const>, median <const> = include "../../lib/peak_memory.lua", include "../../lib/punch_scenes.lua".median
 local steel <const> = dotyk.material{ E = 210e3, nu = 0.3 }
 
--- 1. Bodies: geometry in Gmsh's language, with the greatest edge h where they touch.
-local function body(name, geometry, h, material)
-  local text <const> = ("SetFactory(\"OpenCASCADE\"); Mesh.MeshSizeExtendFromBoundary = 0; h = %.9g;\n%s"):format(h, geometry)
+-- 1. Bodies. A geometry in Gmsh's language becomes a STEP file; what Gmsh reads from that is meshed, with the greatest edge h where bodies touch.
+-- dotyk's Gmsh may write no files, so another program writes this one.
+local scratch <close> = setmetatable({ name = os.tmpname(), count = 0 }, { __close = function(all) os.execute(("rm -rf %s*"):format(all.name)) end })
+local function ran(command) assert(os.execute(command), "this has failed: " .. command) end
+local function write(file, text)
+  local out <close> = assert(io.open(file, "w"))
+  out:write(text)
+end
+write(scratch.name .. ".cpp", [[
+#include <gmsh.h>
+int main(int, char** files) {
+  gmsh::initialize(), gmsh::merge(files[1]), gmsh::write(files[2]);
+}
+]])
+ran(("c++ %s.cpp -lgmsh -o %s"):format(scratch.name, scratch.name .. ".exe"))
+
+local steps <const> = {}
+local function step(geometry)
+  if not steps[geometry] then
+    scratch.count = scratch.count + 1
+    local file <const> = scratch.name .. scratch.count
+    write(file .. ".geo", "SetFactory(\"OpenCASCADE\");\n" .. geometry .. "\n")
+    ran(("%s.exe %s.geo %s.step >/dev/null"):format(scratch.name, file, file))
+    steps[geometry] = file .. ".step"
+  end
+  return steps[geometry]
+end
+local function body(name, geometry, sizes, h, material)
+  local text <const> = ("SetFactory(\"OpenCASCADE\"); Merge \"%s\"; Mesh.MeshSizeExtendFromBoundary = 0; h = %.9g;\n%s"):format(step(geometry), h, sizes)
   return dotyk.body{ name = name, mesh = dotyk.mesh.gmsh{ text = text }, material = material or steel }
 end
 
@@ -56,8 +83,8 @@ function parts.lug(h, glued)
   local lug = body("lug", [[
     Cylinder(1) = {0, 0, 0, 0, 0, 5, 20, Pi};  Box(2) = {0, 0, 0, 45, 20, 5};  Cylinder(3) = {0, 0, 0, 0, 0, 5, 10, Pi};
     BooleanUnion(4) = { Volume{1}; Delete; }{ Volume{2}; Delete; };
-    BooleanDifference(5) = { Volume{4}; Delete; }{ Volume{3}; Delete; };]] .. graded(0, 0, 0, 11, 20, 3), h)
-  local pin = body("pin", ("Cylinder(1) = {%g, 0, 0, 0, 0, 8, %g, Pi};"):format(-gap, 10 - gap) .. even(1.2), h)
+    BooleanDifference(5) = { Volume{4}; Delete; }{ Volume{3}; Delete; };]], graded(0, 0, 0, 11, 20, 3), h)
+  local pin = body("pin", ("Cylinder(1) = {%g, 0, 0, 0, 0, 8, %g, Pi};"):format(-gap, 10 - gap), even(1.2), h)
   for _, b in ipairs{ lug, pin } do
     b:part("middle", at(3, 0)):slide()
     b:part("axis", at(2, 0)):slide()
@@ -72,10 +99,10 @@ function parts.ball(h, glued)
   local gap <const> = glued and 0 or 0.05
   local socket = body("socket", [[
     Box(1) = {0, 0, -18, 18, 18, 18};  Sphere(2) = {0, 0, 0, 10};
-    BooleanDifference(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };]] .. graded(0, 0, 0, 11, 10, 3), h)
+    BooleanDifference(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };]], graded(0, 0, 0, 11, 10, 3), h)
   local ball = body("ball", ("Sphere(1) = {0, 0, %g, %g};"):format(-gap, 10 - gap) .. [[
     Box(2) = {0, 0, -12, 12, 12, 12};
-    BooleanIntersection(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };]] .. even(1.2), h)
+    BooleanIntersection(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };]], even(1.2), h)
   for _, b in ipairs{ socket, ball } do
     b:part("x", at(1, 0)):slide()
     b:part("y", at(2, 0)):slide()
@@ -91,10 +118,10 @@ function parts.flange(h)
     Cylinder(1) = {0, 0, 0, 0, 0, 12, 60, Pi / 4};  Cylinder(2) = {0, 0, 0, 0, 0, 45, 36, Pi / 4};  Cylinder(3) = {0, 0, 0, 0, 0, 45, 30, Pi / 4};
     Cylinder(4) = {48 * Cos(Pi / 8), 48 * Sin(Pi / 8), 0, 0, 0, 12, 4.5};
     BooleanUnion(5) = { Volume{1}; Delete; }{ Volume{2}; Delete; };
-    BooleanDifference(6) = { Volume{5}; Delete; }{ Volume{3, 4}; Delete; };]] .. even(1.5), h)
+    BooleanDifference(6) = { Volume{5}; Delete; }{ Volume{3, 4}; Delete; };]], even(1.5), h)
   local gasket = body("gasket", [[
     Cylinder(1) = {0, 0, -1, 0, 0, 1, 42, Pi / 4};  Cylinder(2) = {0, 0, -1, 0, 0, 1, 31, Pi / 4};
-    BooleanDifference(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };]] .. even(1), h, dotyk.material{ E = 2e3, nu = 0.4 })
+    BooleanDifference(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };]], even(1), h, dotyk.material{ E = 2e3, nu = 0.4 })
   for _, b in ipairs{ flange, gasket } do
     b:part("first", at(2, 0)):slide()
     b:part("last", function(x, y) return math.abs(x - y) < 1e-6 end):slide()
@@ -110,10 +137,10 @@ end
 function parts.wheel(h, glued)
   local wheel = body("wheel", [[
     Cylinder(1) = {0, 0, 460, 0, 20, 0, 460};  Box(2) = {0, 0, 0, 40, 20, 40};
-    BooleanIntersection(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };]] .. graded(0, 0, 0, 2.5, 25, 12), h)
+    BooleanIntersection(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };]], graded(0, 0, 0, 2.5, 25, 12), h)
   local rail = body("rail", [[
     Cylinder(1) = {0, 0, -300, 40, 0, 0, 300};  Box(2) = {0, 0, -40, 40, 20, 40};
-    BooleanIntersection(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };]] .. graded(0, 0, 0, 2.5, 25, 12), h)
+    BooleanIntersection(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };]], graded(0, 0, 0, 2.5, 25, 12), h)
   for _, b in ipairs{ wheel, rail } do
     b:part("x", at(1, 0)):slide()
     b:part("y", at(2, 0)):slide()

@@ -4,8 +4,9 @@
 --
 -- 1. The same scenes at 1, 2, 3, 4 and 8 ranks: energies agree to 1e-9 of their size, the numbers of interface rows are equal. Iterations of conjugate
 --    gradients may be a tenth more: sweeps of a rank know what others have from the second sweep of its border on, and aggregates end where a rank ends.
--- 2. Faults while a process of its own solves one scene after the other: a rank is killed, rank 0 is killed, memory ends on a rank or on rank 0 (a limit of
---    address space at what it has, while scenes grow), the disk is full where rank 0 writes results. Each run must end, with a status other than
+-- 2. Faults while processes of their own solve one scene after the other, started by dotyk.ranks and by mpirun in turn (where that is installed): a rank
+--    is killed, rank 0 is killed, memory ends on a rank or on rank 0 (a limit of address space at what it has, while scenes grow), the disk is full where
+--    rank 0 or another rank writes results, an exception on one rank (it cannot open its file). Each run must end within a minute, with a status other than
 --    0, leave no process behind, and all answers that it has given must be right.
 
 local faults <const>, most <const> = tonumber(arg[1]) or 20, tonumber(arg[2]) or 8
@@ -108,50 +109,60 @@ io.stdout:setvbuf "line"
 for n = 10, 100, 2 do
   local s = dotyk.solver.multigrid{}:solve(scenes.cube(n, { friction = 0.3, refine = n % 4 == 0 and 1 or 0 })) -- every second one refined by the ranks
   print(("answer %d %.12g"):format(n, s.energy))
-  s:write(file)
-  if n % 4 == 0 then s:write((file:gsub("vtu$", "pvtu"))) end -- all ranks write
+  if file then s:write(file) end
+  if file and n % 4 == 0 then s:write((file:gsub("vtu$", "pvtu"))) end -- all ranks write
 end
 ]]
+local nothing <const> = "" -- to write: writing refuses to begin with little memory, so that no allocation fails
+local limit <const> = "prlimit --pid $victim --as=$(awk '/VmSize/ { print $2 * 1024 }' /proc/$victim/status)"
+local a_rank <const> = "victim=$(echo $workers | tr ' ' '\\n' | shuf -n 1); "
 local kinds <const> = {
-  { "a rank is killed", "kill -9 $(echo $workers | tr ' ' '\\n' | shuf -n 1)" },
+  { "a rank is killed", a_rank .. "kill -9 $victim" },
   { "rank 0 is killed", "kill -9 $zero" },
-  { "memory ends on a rank", "victim=$(echo $workers | tr ' ' '\\n' | shuf -n 1); limit=$(awk '/VmSize/ { print $2 * 1024 }' /proc/$victim/status); prlimit --pid $victim --as=$limit" },
-  { "memory ends on rank 0", "limit=$(awk '/VmSize/ { print $2 * 1024 }' /proc/$zero/status); prlimit --pid $zero --as=$limit" },
+  { "memory ends on a rank", a_rank .. limit, nothing },
+  { "memory ends on rank 0", "victim=$zero; " .. limit, nothing },
   { "the disk is full", "prlimit --pid $zero --fsize=4096" },
-  { "full where a rank writes", "victim=$(echo $workers | tr ' ' '\\n' | shuf -n 1); prlimit --pid $victim --fsize=4096" },
+  { "full where a rank writes", a_rank .. "prlimit --pid $victim --fsize=4096" },
+  { "an exception on a rank", "rm -f ${out}_1.vtu; mkdir ${out}_1.vtu" }, -- a folder is where its file should be
 }
--- Starts, waits for the first answer and a moment more, does it, and tells the status and how many processes are left.
+-- How it is started, and the processes below $runner then: by dotyk.ranks rank 0, MPI's daemon and the others; by mpirun this, and its ranks in order.
+-- Once this process has solved by multigrid, MPI has left two variables in its environment, with which mpirun would not start.
+local starts <const> = {
+  { "", "zero=$(children $runner); daemon=$(children $zero); workers=$(children $daemon)" },
+  os.execute "command -v mpirun >/dev/null" and
+    { "env -u OMPI_MCA_ess -u OMPI_MCA_pmix mpirun --allow-run-as-root --oversubscribe -n %d",
+      "daemon=$(children $runner); set -- $(children $daemon); zero=$1; shift; workers=$*" } }
+-- Starts, waits for the first answer and a moment more, does it, and tells the status, the seconds and how many processes are left.
 local harness <const> = [[
-out=%s; file=%s.vtu
-OPENBLAS_NUM_THREADS=1 timeout -k 1 60 '%s' '%s' %d $file >$out 2>&1 & runner=$!
+out=%s; file=$out.vtu; began=$(date +%%s)
+OPENBLAS_NUM_THREADS=1 timeout -k 1 60 %s '%s' '%s' %d %s >$out 2>&1 & runner=$!
 for i in $(seq 200); do grep -q '^answer' $out && break; sleep 0.05; done
-children() { cat /proc/$1/task/*/children 2>/dev/null; }
-zero=$(children $runner | awk '{ print $1 }'); workers=
-for c in $(children $zero); do workers="$workers $(children $c)"; done
-workers=$(echo $workers)
+children() { echo $(cat /proc/$1/task/*/children 2>/dev/null); }
+%s
 sleep %.2f
 { %s; } 2>/dev/null
-wait $runner; status=$?
+wait $runner; status=$?; took=$(($(date +%%s) - began))
 living() {
   left=0
-  for p in $workers; do if [ -e /proc/$p ] && ! grep -q '^State:.[ZX]' /proc/$p/status 2>/dev/null; then left=$((left + 1)); fi; done
+  for p in $zero $daemon $workers; do if grep -qs '^State:.[^ZX]' /proc/$p/status; then left=$((left + 1)); fi; done
   [ $left -gt 0 ]
 }
 for i in $(seq 50); do living || break; sleep 0.1; done  # a busy machine takes a while to end them
-echo "status $status left $left workers $(echo $workers | wc -w)"
-rm -f $file $file.* $out.pvtu ${out}_*
+echo "status $status took $took left $left workers $(echo $workers | wc -w)"
+rm -rf $file $out.pvtu ${out}_*
 ]]
 local right, wrong, hung, stayed, kept = {}, 0, 0, 0, 0
-local done <const>, words <const> = {}, {}
+local done <const>, by_mpirun <const>, words <const> = {}, {}, {}
 math.randomseed(tonumber(arg[3]) or 1)
 for f = 1, faults do
-  local kind = kinds[(f - 1) % #kinds + 1]
+  local kind, start = kinds[(f - 1) % #kinds + 1], starts[(f - 1) % #starts + 1]
   local ranks = math.random(2, math.max(2, math.min(4, most)))
   local out = os.tmpname()
-  local pipe = io.popen("sh -c '" .. harness:format(out, out, program, many, ranks, math.random() * 0.5, kind[2]):gsub("'", "'\\''") .. "' 2>/dev/null")
+  local code = harness:format(out, start[1]:format(ranks), program, many, ranks, kind[3] or "$file", start[2], math.random() * 0.5, kind[2])
+  local pipe = io.popen("sh -c '" .. code:gsub("'", "'\\''") .. "' 2>/dev/null")
   local told = pipe:read "a"
   pipe:close()
-  local status, left, workers = told:match "status (%d+) left (%d+) workers (%d+)"
+  local status, took, left, workers = told:match "status (%d+) took (%d+) left (%d+) workers (%d+)"
   assert(tonumber(workers) == ranks - 1, "the child has not started its ranks: " .. told)
   for line in io.lines(out) do
     local n, energy = line:match "^answer (%d+) (.*)"
@@ -159,18 +170,25 @@ for f = 1, faults do
       right[n] = right[n] or dotyk.solver.multigrid{}:solve(scenes.cube(tonumber(n), { friction = 0.3, refine = n % 4 == 0 and 1 or 0 })).energy
       if math.abs(energy / right[n] - 1) > 1e-9 then wrong = wrong + 1 end
     end
-    if not n and line:find "dotyk:" then words[kind[1]] = line:sub(1, 100) end
+    if not n and (line:find "dotyk:" or line:find "mpirun noticed") then words[kind[1]] = line:sub(1, 100) end
   end
   os.remove(out)
-  if status == "124" or status == "0" or left ~= "0" then print(("not seen: %s, status %s, %s processes left"):format(kind[1], status, left)) end
-  if status == "124" or status == "137" and kind[1] ~= "rank 0 is killed" then hung = hung + 1 end
+  local late = tonumber(took) >= 60
+  if late or status == "0" or left ~= "0" then
+    local by = start == starts[1] and "dotyk.ranks" or "mpirun"
+    print(("not seen: %s, by %s, %d ranks, status %s, %s s, %s processes left"):format(kind[1], by, ranks, status, took, left))
+  end
+  if late then hung = hung + 1 end
   if status == "0" then kept = kept + 1 end
   if left ~= "0" then stayed = stayed + 1 end
   done[kind[1]] = (done[kind[1]] or 0) + 1
+  by_mpirun[kind[1]] = (by_mpirun[kind[1]] or 0) + (start == starts[2] and 1 or 0)
   if f % 100 == 0 then io.stderr:write(f, " faults so far, ", hung + kept + stayed + wrong, " not seen\n") end
 end
 for _, kind in ipairs(kinds) do
-  if done[kind[1]] then print(("%-24s %4d times; the last words: %s"):format(kind[1], done[kind[1]], words[kind[1]] or "none")) end
+  if done[kind[1]] then
+    print(("%-24s %4d times, %3d by mpirun; the last words: %s"):format(kind[1], done[kind[1]], by_mpirun[kind[1]], words[kind[1]] or "none"))
+  end
 end
 os.remove(answers)
 os.remove(many)

@@ -24,8 +24,12 @@ OwnedPc aggregate(Mat finest) {
   check(PCSetOperators(pc, finest, finest));
   check(PCSetType(pc, PCGAMG));
   leave_out_smoothers(pc);
-  const bool alone = ranks_of(finest).alone();  // which parallel matrices do not have; PETSc's choice takes twice the time
-  check(alone ? PetscOptionsSetValue(nullptr, "-matptap_via", "rap") : PetscOptionsClearValue(nullptr, "-matptap_via"));
+  // The quicker of the two products takes half as much memory again as all the rest. Parallel matrices have others.
+  constexpr PetscInt kFew = 100'000;
+  PetscInt rows = 0;
+  check(MatGetSize(finest, &rows, nullptr));
+  const bool alone = ranks_of(finest).alone();
+  check(alone ? PetscOptionsSetValue(nullptr, "-matptap_via", rows < kFew ? "rap" : "scalable") : PetscOptionsClearValue(nullptr, "-matptap_via"));
   PetscReal threshold = 0;
   check(PCGAMGSetThreshold(pc, &threshold, 1));
   check(PCGAMGSetAggressiveLevels(pc, 1));
@@ -96,22 +100,23 @@ void attach_near_kernel(Mat finest, const std::vector<double>& modes, int count)
   check(MatSetNearNullSpace(finest, space));
 }
 
-OwnedMat whole(const HalfMatrix& of) {
-  OwnedMat matrix = copied(of.ranks(), of.full(), of.rows());
-  check(MatSetBlockSize(matrix, of.block()));
-  return matrix;
-}
+/// All numbers of a symmetric matrix, in arrays that PETSc uses: a copy of them would be the most that is ever needed.
+struct Whole {
+  explicit Whole(const HalfMatrix& of) : own(of.full()), matrix(matrix_of(of.ranks(), own, others, of.rows(), {of.block(), of.block()})) {}
+  Rows own, others;
+  OwnedMat matrix;
+};
 
 /// The stiffness of displacements, definite also where nothing holds a body.
-OwnedMat held_slightly(const HalfMatrix& of) {
+Whole held_slightly(const HalfMatrix& of) {
   constexpr double kSlightly = 1e-8;
-  OwnedMat matrix = whole(of);
+  Whole whole(of);
   OwnedVec diagonal;
-  check(MatCreateVecs(matrix, diagonal.put(), nullptr));
-  check(MatGetDiagonal(matrix, diagonal));
+  check(MatCreateVecs(whole.matrix, diagonal.put(), nullptr));
+  check(MatGetDiagonal(whole.matrix, diagonal));
   check(VecScale(diagonal, kSlightly));
-  check(MatDiagonalSet(matrix, diagonal, ADD_VALUES));
-  return matrix;
+  check(MatDiagonalSet(whole.matrix, diagonal, ADD_VALUES));
+  return whole;
 }
 
 /// S P, with the blocks of P.
@@ -179,18 +184,18 @@ void Hierarchy::coarsen() {
     if (end_in_aggregates) {
       fill_coarse();
       forget_changes();
-      take_aggregates(whole(*matrices_.back()));
+      take_aggregates(Whole(*matrices_.back()).matrix);
     }
   } else if (S) {
-    take_aggregates(piece_.slices ? held_slightly(matrix(0)) : held_slightly(HalfMatrix(ranks_, std::move(piece_.displaced))));
+    take_aggregates((piece_.slices ? held_slightly(matrix(0)) : held_slightly(HalfMatrix(ranks_, std::move(piece_.displaced)))).matrix);
     take(piece_.beside), take(piece_.first);
     take_unknowns(S);
   } else {
     take(piece_.beside), take(piece_.first);
-    take_aggregates(whole(matrix(0)));
+    take_aggregates(Whole(matrix(0)).matrix);
   }
   S = OwnedMat();
-  piece_.unknowns = Rows(), piece_.beside = Change(), piece_.first = Change(), std::vector<double>().swap(piece_.modes);
+  piece_.unknowns = Rows(), piece_.beside = Change(), piece_.first = Change();
   for (std::size_t l = products_.size(); l < interpolations_.size(); ++l) multiply(static_cast<int>(l));
 }
 
@@ -226,9 +231,10 @@ void Hierarchy::restrict_load(Mat P) {
   coarser_load_ = std::make_shared<const std::vector<double>>(numbers + 0, numbers + piece_.own[1]);
 }
 
-void Hierarchy::take_aggregates(OwnedMat finest) {
+void Hierarchy::take_aggregates(Mat finest) {
   check(MatSetOption(finest, MAT_SPD, PETSC_TRUE));
   attach_near_kernel(finest, piece_.modes, piece_.motions);
+  std::vector<double>().swap(piece_.modes);
   const OwnedPc pc = aggregate(finest);
   PetscInt count = 0, coarse = 0;
   Mat *interpolations = nullptr, *operators = nullptr;

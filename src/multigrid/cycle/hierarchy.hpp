@@ -54,7 +54,7 @@ class Hierarchy {
   /// Adds a level for each of the first `count` coarser meshes. S maps displacements to unknowns; null if the unknowns are displacements.
   void take_functions(Mat S, int count);
   /// Levels of aggregates below a matrix of the near kernel that Piece::modes are.
-  void take_aggregates(OwnedMat of);
+  void take_aggregates(Mat of);
   /// Interpolations from coarse displacements to the unknowns, and coarse matrices of these.
   void take_unknowns(Mat S);
   bool aggregates();         ///< do they follow the coarsest mesh?

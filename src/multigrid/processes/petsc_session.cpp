@@ -1,7 +1,11 @@
 #include "multigrid/processes/petsc_session.hpp"
 
+#include <unistd.h>
+
 #include <csignal>
 #include <cstdlib>
+#include <cstring>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -61,8 +65,17 @@ class Environment {
   std::vector<const char*> names_;
 };
 
+/// Names of all variables of the environment.
+std::set<std::string> variables() {
+  std::set<std::string> names;
+  for (char** one = environ; *one; ++one) names.emplace(*one, std::strcspn(*one, "="));
+  return names;
+}
+
 void initialise(bool spawns) {
   const KeptSignals signals;
+  std::set<std::string> known = variables();
+  for (const char* name : {"OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE"}) known.erase(name);
   Environment environment;
   if (spawns) {  // in containers too: as root, and more ranks than processors
     environment.set("OMPI_ALLOW_RUN_AS_ROOT", "1");
@@ -85,7 +98,8 @@ void initialise(bool spawns) {
   int count = 3;
   char** arguments = words;
   if (PetscInitialize(&count, &arguments, nullptr, nullptr) != 0) throw std::runtime_error("PETSc could not be started");
-  for (const char* name : {"OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE"}) unsetenv(name);  // programs that a script starts are none of these ranks
+  for (const std::string& name : variables())  // of MPI's own: programs that a script starts, as mpirun, are none of these ranks
+    if (!known.contains(name)) unsetenv(name.c_str());
   check(PetscPushErrorHandler(note_error, nullptr));
   check(PetscOptionsSetValue(nullptr, "-mat_cholmod_print", "0"));  // what is not definite is told by set()
 }

@@ -137,7 +137,10 @@ Rows HalfMatrix::full(const std::vector<int>& rows) const {
     Read read;
   };
   const int n = block();
+  std::size_t count = 0;
+  for (const int row : rows) each_block(row / n, [&](auto&&...) { count += static_cast<std::size_t>(n); });
   Rows out;
+  out.columns.reserve(count), out.values.reserve(count), out.starts.reserve(rows.size() + 1);
   std::vector<Part> parts;
   for (int before = -1; const int row : rows) {
     const int node = row / n, r = row % n;

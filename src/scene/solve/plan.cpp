@@ -58,6 +58,8 @@ std::string expected(const problem::Problem& problem) {
 /// Rounded up to a tenth.
 double tenths(double seconds) { return std::ceil(10 * seconds) / 10; }
 
+std::string cost(const solver::Expected::Cost& of) { return text(tenths(of.seconds), " s on a core and ", std::ceil(of.bytes * 1e-6), " MB"); }
+
 /// The method that solves it where none is named, and why.
 std::string method(const problem::Problem& problem, bool any_free) {
   if (const solver::TurnedNodes nodes(problem); !nodes.none())
@@ -70,9 +72,8 @@ std::string method(const problem::Problem& problem, bool any_free) {
       return text("pdas on all ", problem.unknowns(), " unknowns, one sparse factorisation an iteration (reduced = false): its ", problem.rows(),
                   " rows need not be condensed, or are too many");
     case solver::DefaultMethod::multigrid: {
-      const solver::Expected seconds = solver::expected(problem);
-      return text("multigrid on all ", problem.unknowns(), " unknowns: some ",
-                  tenths(seconds.multigrid), " s on a core, where factors would take some ", tenths(seconds.factors), " s");
+      const auto [factors, multigrid] = solver::expected(problem);
+      return text("multigrid on all ", problem.unknowns(), " unknowns: some ", cost(multigrid), ", where factors would take some ", cost(factors));
     }
     case solver::DefaultMethod::pdas: break;
   }

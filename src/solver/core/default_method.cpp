@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "base/memory.hpp"
 #include "base/stopwatch.hpp"
 #include "multigrid/multigrid.hpp"
 #include "problem/coarser.hpp"
@@ -20,25 +21,26 @@ namespace {
 constexpr int kLarge = 8000;
 /// Multigrid is taken where it is kFaster times as fast as factors, or kFactorIsKept times where all steps of a history use one factor.
 constexpr double kFaster = 1.1, kFactorIsKept = 10;
-constexpr double kOpening = 0.15;  ///< seconds that the library of multigrid takes to open
+constexpr double kOpening = 0.18;  ///< seconds that the library of multigrid takes to open
 
 bool multigrid_is_possible(const problem::Problem& problem) {
   const bool solid = std::all_of(problem.blocks.begin(), problem.blocks.end(), [](const problem::Block& b) { return bool(b.rigid); });
   return problem.unknowns() >= kLarge && problem.subdomains.empty() && solid && multigrid::available() && tells_springs(problem);
 }
 
-bool multigrid_is_faster(const problem::Problem& problem, double times = kFaster) {
+/// Is multigrid faster by more than so many times, or memory too short for factors?
+bool takes_multigrid(const problem::Problem& problem, double times = kFaster) {
   if (!multigrid_is_possible(problem)) return false;
-  const Expected seconds = expected(problem);
-  return seconds.factors > times * seconds.multigrid;
+  const Expected e = expected(problem);
+  return e.factors.seconds > times * e.multigrid.seconds || !memory_for(e.factors.bytes);
 }
 
 /// The number of iterations a linear system beyond which factors are the faster way, once the library is open.
 double most_iterations(const problem::Problem& problem) {
   constexpr double kShare = 0.4;  // of the seconds that the usual ones take
   const double usual = problem::coarser_meshes(problem) > 1 ? 25 : 45;
-  const Expected seconds = expected(problem);
-  return usual * (1 + std::max(0.0, seconds.factors / (seconds.multigrid - kOpening) - 1) / kShare);
+  const Expected e = expected(problem);
+  return usual * (1 + std::max(0.0, e.factors.seconds / (e.multigrid.seconds - kOpening) - 1) / kShare);
 }
 
 /// Has nearly every row an unknown that no other row has, as those of mortar glue of order 1 do? Else the basis of rows fills up.
@@ -62,28 +64,30 @@ bool rows_stand_apart(const problem::Problem& problem) {
 }  // namespace
 
 Expected expected(const problem::Problem& problem) {
-  // Constants measured by scripts/studies/crossing.lua, for n unknowns and m points of contact with d components each. A factor by nested dissection takes
-  // 7.5 n² operations in space and 210 n^1.5 in the plane. Contact takes 3 (dm)³ more for its dense matrices, or else a factor a step. Ordering grows with n.
-  constexpr double kFlops = 1.2e10, kSteps = 8;
+  // Constants measured by scripts/studies/crossing.lua, for n unknowns and m points of contact with d components each. A factor takes 7.5 n² operations in space
+  // and 210 n^1.5 in the plane. Contact takes 3 (dm)³ more for its dense matrices, or else a factor a step. Ordering grows with n.
+  constexpr double kFlops = 1.25e10, kSteps = 8;
   constexpr int kRigidMotions = 6;
   const bool space = problem.blocks.front().rigid().cols() == kRigidMotions;
   const bool geometric = problem::coarser_meshes(problem) > 1;
   const bool quadratic = std::any_of(problem.blocks.begin(), problem.blocks.end(), [](const problem::Block& b) { return b.coarse.order == 2; });
-  const double unknown = (space ? 2e-5 : 1e-5) * (geometric ? 1 : 5) * (quadratic ? 3 : 1);  // seconds of multigrid; twice as many entries and iterations
+  const double unknown = (space ? 4e-6 : 2.5e-6) * (geometric ? 1 : 6) * (quadratic ? 3 : 1);  // seconds of multigrid; twice as many entries and iterations
   double tangential = 0;
   for (const problem::FrictionGroup& group : problem.friction) tangential += group.components * group.points();
   const double n = problem.unknowns(), m = NearRows(problem, {}).count() * (1 - tangential / std::max(problem.rows(), 1)) * !all_linear(problem);
-  const double solves = all_linear(problem) ? 0.6 : problem.friction.empty() ? 1 : 2;  // times as many iterations
+  const double solves = all_linear(problem) ? 0.6 : problem.friction.empty() ? 1 : 1.6;  // times as many iterations
   const auto factor_of = [&](double size) { return space ? 7.5 * size * size : 210 * std::pow(size, 1.5); };
   double factor = 0;  // of each body, or of all where they are glued
   for (const problem::Block& block : problem.blocks) factor += factor_of(block.size());
   if (problem.rows() > 0 && all_linear(problem)) factor = factor_of(n);
   const double rows = (space ? 81 : 24) * m * m * m, each = problem.friction.empty() ? kSteps * factor_of(n) : INFINITY;
-  return {(space ? 2.6e-5 : 4e-6) * n + std::min(factor + rows, each) / kFlops, kOpening + unknown * n * solves};
+  const double factor_bytes = space ? 200 * std::pow(n, 4.0 / 3) : 60 * n * std::log2(std::max(n, 2.0));
+  return {{(space ? 6e-6 : 1e-6) * n + std::min(factor + rows, each) / kFlops, factor_bytes + problem::dense_bytes(m)},
+          {kOpening + unknown * n * solves, (space ? 1000 : 500) * (geometric ? 1 : 1.8) * n}};
 }
 
 DefaultMethod default_method(const problem::Problem& problem) {
-  if (multigrid_is_faster(problem)) return DefaultMethod::multigrid;
+  if (takes_multigrid(problem)) return DefaultMethod::multigrid;
   if (problem.rows() == 0) return DefaultMethod::linear;
   if (!problem.friction.empty() || !tells_springs(problem)) return DefaultMethod::newton;
   constexpr int kMany = 3000, kShare = 10, kFew = 150;
@@ -160,6 +164,17 @@ std::optional<Result> run_turned(const problem::Problem& problem, const Beginnin
   return std::nullopt;
 }
 
+/// Not held on all unknowns.
+Result run_otherwise(const problem::Problem& problem, DefaultMethod by_default, Beginning from, Monitor& monitor, std::optional<bool> condensed) {
+  if (problem.rows() == 0) return solve_linear(problem, {}, monitor);
+  if (!from.condenser && !condensed) {
+    NearRows near(problem, from.start);
+    if (!near.all())
+      if (auto result = run_near(std::move(near), from, monitor)) return *std::move(result);
+  }
+  return run(problem, by_default, std::move(from), monitor, condensed);
+}
+
 }  // namespace
 
 Result solve(const problem::Problem& problem, const Method& method, Beginning from, Monitor& monitor, std::optional<bool> condensed) {
@@ -171,24 +186,25 @@ Result solve(const problem::Problem& problem, const Method& method, Beginning fr
     if (auto result = run_turned(problem, from, monitor)) return *std::move(result);
   const DefaultMethod by_default = default_method(problem);
   Result before;
-  const bool by_multigrid = by_default == DefaultMethod::multigrid && (!from.condenser || multigrid_is_faster(problem, kFactorIsKept));
+  const bool by_multigrid = by_default == DefaultMethod::multigrid && (!from.condenser || takes_multigrid(problem, kFactorIsKept));
   if (!condensed && (by_multigrid || (by_default == DefaultMethod::held && !from.condenser))) {
     before = run_held(problem, by_multigrid, from, monitor);
     if (before.converged || monitor.stop()) return before;
   }
-  const auto after = [&](Result result) {
-    if (before.reason.empty()) return result;
-    result.reason += "; before, on all unknowns: " + before.reason;
-    result.clock.add_solve(before.clock);
+  std::string tried = before.reason.empty() ? "" : "; before, on all unknowns: " + before.reason;
+  try {
+    Result result = run_otherwise(problem, by_default, from, monitor, condensed);
+    result.reason += tried;
+    if (!tried.empty()) result.clock.add_solve(before.clock);
     return result;
-  };
-  if (problem.rows() == 0) return after(solve_linear(problem, {}, monitor));
-  if (!from.condenser && !condensed) {
-    NearRows near(problem, from.start);
-    if (!near.all())
-      if (auto result = run_near(std::move(near), from, monitor)) return after(*std::move(result));
+  } catch (const MemoryShort& error) {  // the orderings say so, where the rule did not
+    if (!condensed && !by_multigrid && multigrid_is_possible(problem)) {
+      before = run_held(problem, true, std::move(from), monitor);
+      if (before.converged || monitor.stop()) return before;
+      tried = "; by multigrid: " + before.reason;
+    }
+    throw MemoryShort(error.what() + tried);
   }
-  return after(run(problem, by_default, std::move(from), monitor, condensed));
 }
 
 }  // namespace dotyk::solver

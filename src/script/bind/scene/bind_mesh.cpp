@@ -88,10 +88,29 @@ std::shared_ptr<MeshHandle> disc(Call& call) {
   return handle_of(mesh::disc(center.data(), call.number("radius"), static_cast<int>(count), chosen_family(call)));
 }
 
+std::vector<std::string> mesh_part_names(const MeshHandle& m) {
+  std::vector<std::string> names;
+  for (const auto& [name, facets] : m.mesh->parts) names.push_back(name);
+  return names;
+}
+
+/// " a b c", no more than a dozen.
+std::string shown(const std::vector<std::string>& names) {
+  std::string out;
+  for (std::size_t i = 0; i < std::min<std::size_t>(names.size(), 12); ++i) out += names[i].find(' ') == std::string::npos ? " " + names[i] : " '" + names[i] + "'";
+  return names.size() > 12 ? text(out, " and ", names.size() - 12, " more") : out;
+}
+
 Self transform(Call& call) {
   MeshHandle& handle = *call.self<MeshHandle>();
   auto moved = std::make_shared<mesh::Mesh>(*handle.mesh);
-  mesh::transform(*moved, point_map(call.function("map"), moved->dimension()));
+  std::vector<char> flagged;
+  if (call.has("part")) {
+    const auto part = moved->parts.find(call.text("part"));
+    if (part == moved->parts.end()) throw InputError("the mesh has no part '" + call.text("part") + "'; it has" + shown(mesh_part_names(handle)));
+    flagged = mesh::flag_nodes(*moved, part->second);
+  }
+  mesh::transform(*moved, point_map(call.function("map"), moved->dimension()), flagged);
   handle.mesh = std::move(moved);
   return call.give_self();
 }
@@ -131,19 +150,6 @@ std::shared_ptr<MeshHandle> refined(Call& call) {
   Watch watch(call.state(), "refining");
   for (std::int64_t k = 0; k < times; ++k) mesh = std::make_shared<mesh::Mesh>(elasticity::refined(*mesh, &watch));
   return std::make_shared<MeshHandle>(MeshHandle{mesh});
-}
-
-std::vector<std::string> mesh_part_names(const MeshHandle& m) {
-  std::vector<std::string> names;
-  for (const auto& [name, facets] : m.mesh->parts) names.push_back(name);
-  return names;
-}
-
-/// " a b c", no more than a dozen.
-std::string shown(const std::vector<std::string>& names) {
-  std::string out;
-  for (std::size_t i = 0; i < std::min<std::size_t>(names.size(), 12); ++i) out += names[i].find(' ') == std::string::npos ? " " + names[i] : " '" + names[i] + "'";
-  return names.size() > 12 ? text(out, " and ", names.size() - 12, " more") : out;
 }
 
 std::string mesh_text(const MeshHandle& m) {
@@ -263,14 +269,15 @@ void bind_mesh(Library& library) {
       .field("regions", "of a mesh from a file: names of the regions that its cells are of", &MeshHandle::regions)
       .field("notes", "of a mesh from a file: what the file has and the mesh has not, sentences", &MeshHandle::notes)
       .method({.name = "mesh:transform",
-               .help = "Moves every node to map(x, y[, z]). Bodies made before keep the mesh as it was. A map that "
-                       "inverts a cell is an error and changes nothing.",
+               .help = "Moves every node, or those of a boundary part, to map(x, y[, z]). Bodies made before keep the mesh as it was. A map that "
+                       "inverts a cell is an error and changes nothing. The coarser meshes of mesh:refined are remembered.",
                .example = "m:transform(function(x, y) return x, y + 0.1 * x^2 end)",
-               .arguments = {key::function("map", "coordinates to new coordinates").required()},
+               .arguments = {key::function("map", "coordinates to new coordinates").required(),
+                             key::string("part", "whose nodes move: onto the curve or surface that it stands for").otherwise("all nodes")},
                .run = transform})
       .method({.name = "mesh:refined",
                .help = "A new mesh with each cell cut into 4 in the plane, 8 in space, so many times, its parts with it. Curved sides of order 2 stay the "
-                       "same curves. The coarser meshes are remembered: dotyk.solver.multigrid has its levels from them.",
+                       "same curves; of order 1 new nodes lie on the chords, from which mesh:transform moves them. The coarser meshes are remembered: dotyk.solver.multigrid has its levels from them.",
                .example = "local fine = m:refined(2)",
                .arguments = {key::integer("times", "how often").within(0, 20).fallback(1.0)},
                .run = refined})

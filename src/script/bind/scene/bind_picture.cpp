@@ -1,4 +1,6 @@
 // Pictures of solutions, alone and side by side, and files for ParaView.
+#include <cstdio>
+
 #include "figure/canvas/geometry.hpp"
 #include "base/error.hpp"
 #include "figure/compose/compose.hpp"
@@ -268,6 +270,8 @@ void bind_picture(Library& library) {
          figure::GridFile grid = figure::compose_grid(*s, call.text("file"));
          if (call.has("options") && call.table("options").has("pieces")) grid.pieces = static_cast<int>(call.table("options").number("pieces"));
          figure::write(grid);
+         if (s->model().problem.hides())
+           std::fprintf(stderr, "dotyk: %s has the cells at the boundary; a .pvtu has all\n", call.text("file").c_str());
          return call.text("file");
        }});
 }
