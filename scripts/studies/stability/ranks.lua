@@ -126,11 +126,10 @@ local kinds <const> = {
   { "an exception on a rank", "rm -f ${out}_1.vtu; mkdir ${out}_1.vtu" }, -- a folder is where its file should be
 }
 -- How it is started, and the processes below $runner then: by dotyk.ranks rank 0, MPI's daemon and the others; by mpirun this, and its ranks in order.
--- Once this process has solved by multigrid, MPI has left two variables in its environment, with which mpirun would not start.
 local starts <const> = {
   { "", "zero=$(children $runner); daemon=$(children $zero); workers=$(children $daemon)" },
   os.execute "command -v mpirun >/dev/null" and
-    { "env -u OMPI_MCA_ess -u OMPI_MCA_pmix mpirun --allow-run-as-root --oversubscribe -n %d",
+    { "mpirun --allow-run-as-root --oversubscribe -n %d",
       "daemon=$(children $runner); set -- $(children $daemon); zero=$1; shift; workers=$*" } }
 -- Starts, waits for the first answer and a moment more, does it, and tells the status, the seconds and how many processes are left.
 local harness <const> = [[

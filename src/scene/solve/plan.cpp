@@ -64,7 +64,8 @@ std::string cost(const solver::Expected::Cost& of) { return text(tenths(of.secon
 std::string method(const problem::Problem& problem, bool any_free) {
   if (const solver::TurnedNodes nodes(problem); !nodes.none())
     return method(nodes.turned(), any_free) + text("; ", problem.rows() - nodes.count(), " rows of oblique slides are none, since their nodes' frames are turned");
-  const std::string factored = text(" (", problem.unknowns(), " unknowns factored once", expected(problem), ")");
+  const std::string instead = solver::multigrid_is_possible(problem) ? "; multigrid would take some " + cost(solver::expected(problem).multigrid) : "";
+  const std::string factored = text(" (", problem.unknowns(), " unknowns factored once", expected(problem), instead, ")");
   switch (solver::default_method(problem)) {
     case solver::DefaultMethod::linear: return text("one linear solve of ", problem.unknowns(), " unknowns");
     case solver::DefaultMethod::newton: return "newton on the condensed rows of contact and friction" + factored;

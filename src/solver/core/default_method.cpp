@@ -23,10 +23,14 @@ constexpr int kLarge = 8000;
 constexpr double kFaster = 1.1, kFactorIsKept = 10;
 constexpr double kOpening = 0.18;  ///< seconds that the library of multigrid takes to open
 
+}  // namespace
+
 bool multigrid_is_possible(const problem::Problem& problem) {
   const bool solid = std::all_of(problem.blocks.begin(), problem.blocks.end(), [](const problem::Block& b) { return bool(b.rigid); });
   return problem.unknowns() >= kLarge && problem.subdomains.empty() && solid && multigrid::available() && tells_springs(problem);
 }
+
+namespace {
 
 /// Is multigrid faster by more than so many times, or memory too short for factors?
 bool takes_multigrid(const problem::Problem& problem, double times = kFaster) {
