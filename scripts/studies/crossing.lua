@@ -63,7 +63,7 @@ local scenes <const> = {
   { "blocks 16", 11e3, blocks, 16, {} }, { "blocks 32", 100e3, blocks, 32, {} }, { "blocks 32, glued", 100e3, blocks, 32, { linear = true } },
   { "blocks 24, Coulomb", 40e3, blocks, 24, { friction = 0.3 } }, { "ball, h = 2", 2.6e3, ball, 2, {} }, { "ball, h = 1.2", 9.9e3, ball, 1.2, {} },
   { "ball, h = 0.8", 32e3, ball, 0.8, {} }, { "ball, h = 0.6", 70e3, ball, 0.6, {} }, { "ball, h = 1.2, Coulomb", 9.9e3, ball, 1.2, { friction = 0.2 } },
-  -- Odd numbers of cells: there are no coarser meshes.
+  -- Odd numbers of cells: there are no coarser meshes, but of order 1 where these are of order 2.
   { "cube 17", 17e3, cube, 17 }, { "cube 23", 40e3, cube, 23 }, { "cube 31", 95e3, cube, 31 }, { "cube 23, Coulomb", 40e3, cube, 23, { friction = 0.3 } },
   { "cube 31, Coulomb", 95e3, cube, 31, { friction = 0.3 } }, { "cube 25, loaded", 51e3, cube, 25, { linear = true } }, { "hexahedra 23", 40e3, cube, 23, { element = "Q1" } },
   { "cube 11, order 2", 35e3, cube, 11, { element = "P2" } }, { "square 301", 182e3, square, 301 }, { "blocks 23", 37e3, blocks, 23, {} },

@@ -54,6 +54,7 @@ end
 local sizes = {}
 for _, n in ipairs(arg) do sizes[#sizes + 1] = tonumber(n) end
 if #sizes == 0 then sizes = { 8, 16, 24, 32, 40, 64 } end
+table.sort(sizes)
 local last <const>, middle <const> = sizes[#sizes], math.min(sizes[#sizes], 32)
 io.write "Seconds, megabytes, and kilobytes an unknown\n  n  unknowns"
 for _, method in ipairs(methods) do
@@ -79,7 +80,7 @@ for i, n in ipairs(sizes) do
 end
 print(("\nEnergies differ by %.0e of their size at most"):format(worst))
 
--- From how many unknowns on b takes less than a, and how much there, by straight lines between logarithms. 0: at all sizes; nil: not at the last.
+-- From how many unknowns on b takes less than a, and how much there, by straight lines between logarithms. 0: at all sizes; nil: not at the last that both have.
 local function crossing(a, b)
   local x, y, lost = a.y[1] and 0
   for i = 1, math.min(#a.y, #b.y) do
@@ -102,7 +103,7 @@ for p, what in ipairs{ "seconds", "bytes" } do
     series[k] = method[what]
     for other = math.max(k + 1, 3), 4 do
       local x <const>, y <const> = crossing(methods[other][what], method[what])
-      local from <const> = not x and "not at the last size" or x == 0 and "at all sizes" or ("from %.0f unknowns on"):format(x)
+      local from <const> = not x and "not at the last size of both" or x == 0 and "at all sizes" or ("from %.0f unknowns on"):format(x)
       print(("%-14s than %-7s  %s"):format(method[1], methods[other][1], from))
       if x and x > 0 then marks.x[#marks.x + 1], marks.y[#marks.y + 1] = x, y end
     end

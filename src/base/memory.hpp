@@ -65,18 +65,13 @@ inline double available_memory() {
 /// Are so many bytes available? If not, memory that malloc keeps for later arrays is given back to the system, and the question is asked again.
 inline bool memory_for(double bytes) { return bytes <= available_memory() || (malloc_trim(0), bytes <= available_memory()); }
 
-/// Memory is too short for what a user asked for.
-struct MemoryShort : InputError {
-  using InputError::InputError;
-};
-
-/// Throws MemoryShort where `bytes` are more than are available: Linux would promise them, and end the
+/// Throws InputError where `bytes` are more than are available: Linux would promise them, and end the
 /// program when they are used. `what` begins the message: "a mesh of 5e7 cells".
 inline void require_memory(double bytes, const std::string& what) {
   if (bytes < 64e6 || memory_for(bytes)) return;  // fewer bytes are not worth asking for
-  throw MemoryShort(text(what, " needs ", bytes * 1e-9, " GB of memory, ", available_memory() * 1e-9,
-                         " GB are available: use fewer cells, half the body where it is symmetric, or finer "
-                         "cells only where they matter (grading)"));
+  throw InputError(text(what, " needs ", bytes * 1e-9, " GB of memory, ", available_memory() * 1e-9,
+                        " GB are available: use fewer cells, half the body where it is symmetric, or finer "
+                        "cells only where they matter (grading)"));
 }
 
 }  // namespace dotyk

@@ -39,7 +39,7 @@ struct ElementTopology {
   bool simplex() const { return corners == dimension + 1; }
 };
 
-extern const std::array<ElementTopology, 8> topologies;  ///< in the order of Element
+extern const std::array<ElementTopology, 8> topologies;  ///< in the order of Element; made before main()
 inline const ElementTopology& topology(Element element) { return topologies[static_cast<int>(element)]; }
 /// ElementTopology's `nodes` and `dimension`, computed inline because inner loops ask for them.
 constexpr int nodes_of(Element element) {

@@ -114,7 +114,7 @@ void check(const Mesh& mesh, const std::string& what);
 /// at the places of nodes of order 2 (hexahedron, cells of second order): positive for a valid cell.
 double least_jacobian(const Mesh& mesh, int cell);
 
-/// Moves every node, or those flagged, to `map(x)`. Throws InputError where a cell inverts or a
+/// Moves the flagged nodes, or all where `flagged` is empty, to `map(x)`. Throws InputError where a cell inverts or a
 /// coordinate is not finite, and then leaves the mesh as it was.
 void transform(Mesh& mesh, const std::function<Point(const Point&)>& map, const std::vector<char>& flagged = {});
 

@@ -39,7 +39,7 @@ class PetscSolver final : public algebra::SpdSolver {
       const bool asked = matrix.coarser && geometric_;
       const Workers of_coarser = workers_.next();
       Piece own = share_out(*pieces, asked ? of_coarser.number() : 0);
-      pieces.reset();
+      pieces.reset();  // making the levels takes the most memory
       cycle_ = std::make_unique<Cycle>(ranks, std::move(own));
       if (asked)
         coarser = std::make_shared<const RankSlices>(of_coarser, Numbering(*numbering_, matrix.coarse->front()), cycle_->take_coarser(),

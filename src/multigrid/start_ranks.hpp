@@ -28,7 +28,7 @@ void meet_ranks();
 /// Says that this program, started with the word --worker, calls work_for_rank_0(true, …).
 void take_word_worker();
 /// Starts other processes of this program on this machine, so that there are `ranks`. Throws InputError where the program does not take the word, where MPI
-/// cannot start them, after the first solution by multigrid, and where it has started several ranks already, but not `ranks`. Does nothing under mpirun.
+/// cannot start them, after the first solution by multigrid, and where it has already started another number of ranks. Does nothing under mpirun.
 void start_ranks(int ranks);
 int count_ranks();
 

@@ -1,16 +1,17 @@
 #include "multigrid/workers.hpp"
 
+#include <dlfcn.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <csignal>
 #include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <map>
 #include <memory>
 #include <new>
+#include <sstream>
 #include <string>
 
 #include "base/text.hpp"
@@ -35,14 +36,20 @@ MPI_Comm& meeting() {
   return comm;
 }
 
-/// Ends the run where ranks are of different builds, as on other machines: they would not understand one another.
+/// Ends the run where ranks that mpirun has started are different builds, as may happen across machines: their messages would not match.
 void require_same_program(const Ranks& ranks) {
-  std::ifstream file("/proc/self/exe", std::ios::binary);
-  std::string program(std::filesystem::file_size("/proc/self/exe"), '\0');
-  file.read(program.data(), static_cast<std::streamsize>(program.size()));
-  constexpr int kExact = 11;  // bits less than a double tells apart
-  const auto own = static_cast<double>(std::hash<std::string>{}(program) >> kExact);
-  if (ranks.greatest(own) == -ranks.greatest(-own)) return;
+  constexpr int kExact = 53;  // bits that a double holds exactly
+  Dl_info library{};
+  dladdr(reinterpret_cast<const void*>(&require_same_program), &library);
+  std::size_t builds = 0;
+  for (const char* name : {"/proc/self/exe", library.dli_fname}) {
+    std::ostringstream bytes;
+    bytes << std::ifstream(name, std::ios::binary).rdbuf();
+    builds = 31 * builds + std::hash<std::string>{}(bytes.str());
+  }
+  const auto own = static_cast<double>(builds >> (64 - kExact));
+  const double greatest = ranks.greatest(own), least = -ranks.greatest(-own);
+  if (greatest == least) return;
   if (ranks.own() == 0) ranks.abort("the ranks are different builds of dotyk");
   MPI_Barrier(ranks.comm());  // until that ends this one
 }
@@ -52,9 +59,10 @@ const Ranks& world() {
   static const Ranks ranks = [] {
     start_petsc();
     MPI_Comm own = spawned_world();
-    if (own == MPI_COMM_NULL) MPI_Comm_dup(MPI_COMM_WORLD, &own);
+    const bool by_mpirun = own == MPI_COMM_NULL;
+    if (by_mpirun) MPI_Comm_dup(MPI_COMM_WORLD, &own);
     const Ranks all(own);
-    if (!all.alone()) require_same_program(all);
+    if (by_mpirun && !all.alone()) all.together([&] { require_same_program(all); });
     return all;
   }();
   return ranks;
@@ -165,8 +173,7 @@ void Workers::tell(Task task, int rank) const { ranks_.send(rank, std::vector<in
 
 void spawn_workers(int ranks, const std::string& program) {
   if (petsc_started())
-    throw InputError("MPI can start other processes only once, and before anything else uses it: dotyk.ranks(…) comes before the first solution by multigrid, and "
-                     "not under mpirun");
+    throw InputError("MPI can start other processes only once, and before anything else uses it: dotyk.ranks(…) comes before the first solution by multigrid");
   start_petsc(true);
   MPI_Comm others = MPI_COMM_NULL;
   MPI_Info here = MPI_INFO_NULL;  // on this machine, whatever a list of hosts says

@@ -116,6 +116,7 @@ class Condenser {
                                    Clock& clock, Monitor& monitor);
   /// Announces a problem with more rows: its row place[k] is row k of the one before.
   void grow(std::vector<int> place) { place_ = std::move(place); }
+  bool holds() const { return condensed_.has_value(); }  ///< a factor
 
  private:
   std::optional<CondensedProblem> condensed_;

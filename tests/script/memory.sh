@@ -63,18 +63,4 @@ done
 [[ $("$dotyk" --memory 180M -e 'print(1)' 2>&1) == 1 ]] || fail "--memory 180M"
 [[ $("$dotyk" --memory 20M -e 'print(1)' 2>&1) =~ ^'dotyk: --memory 20M is less than dotyk needs to start (about '[0-9]+'M)'$ ]] || fail "--memory 20M"
 
-# Multigrid is the default method where factors do not fit, though they would be faster: 0.8 GB of them, 0.7 GB left.
-cube='local b = dotyk.body{ mesh = dotyk.mesh.box{ from = {0,0,0}, to = {1,1,1}, cells = {15,15,15}, element = "P2" }, material = dotyk.material{ E = 1 } }
-  b:part "bottom":fix()
-  local scene = dotyk.scene{ b }
-  scene:contact{ b:part"top", interference = true, rigid = dotyk.rigid.gap{ normal = {0,0,1}, gap = function(x, y) return ((x-0.5)^2 + (y-0.5)^2) / 2 - 0.02 end } }
-  print(scene:plan():match "method: (%a+)", arg[1] and dotyk.solve(scene).method)'
-if ! "$dotyk" -e 'local b = dotyk.body{ mesh = dotyk.mesh.box{ from = {0,0,0}, to = {1,1,1}, cells = {2,2,2} }, material = dotyk.material{ E = 1 } }
-    b:part "bottom":fix() dotyk.solver.multigrid{}:solve(dotyk.scene{ b })' 2>&1 | grep -q libpetsc; then
-  got=$("$dotyk" --memory 1000M -e "local arg = { true } $cube" 2>&1)
-  [[ $got == "multigrid	multigrid" ]] || fail "where factors do not fit: $got"
-  got=$("$dotyk" -e "local arg = {} $cube" 2>&1)
-  [[ $got == "pdas	nil" ]] || fail "where factors fit: $got"
-fi
-
 exit $((failures > 0))

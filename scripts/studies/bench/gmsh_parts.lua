@@ -23,8 +23,8 @@ local peak_memory <const>, median <const> = include "../../lib/peak_memory.lua",
 local steel <const> = dotyk.material{ E = 210e3, nu = 0.3 }
 
 -- 1. Bodies. A geometry in Gmsh's language becomes a STEP file; what Gmsh reads from that is meshed, with the greatest edge h where bodies touch.
--- dotyk's Gmsh may write no files, so another program writes this one.
-local scratch <close> = setmetatable({ name = os.tmpname(), count = 0 }, { __close = function(all) os.execute(("rm -rf %s*"):format(all.name)) end })
+-- dotyk does not let Gmsh write files, so a small program writes the STEP file.
+local scratch <close> = setmetatable({ name = os.tmpname(), count = 0 }, { __close = function(all) os.execute(("rm -rf %s %s.*"):format(all.name, all.name)) end })
 local function ran(command) assert(os.execute(command), "this has failed: " .. command) end
 local function write(file, text)
   local out <close> = assert(io.open(file, "w"))
@@ -42,7 +42,7 @@ local steps <const> = {}
 local function step(geometry)
   if not steps[geometry] then
     scratch.count = scratch.count + 1
-    local file <const> = scratch.name .. scratch.count
+    local file <const> = scratch.name .. "." .. scratch.count
     write(file .. ".geo", "SetFactory(\"OpenCASCADE\");\n" .. geometry .. "\n")
     ran(("%s.exe %s.geo %s.step >/dev/null"):format(scratch.name, file, file))
     steps[geometry] = file .. ".step"

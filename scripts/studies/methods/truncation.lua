@@ -1,4 +1,4 @@
--- Multigrid on an active set: coarse functions truncated at contact, or a filter about a hierarchy?
+-- Multigrid on an active set: coarse functions truncated at contact, or a filter around a hierarchy?
 --
 --   ./dotyk scripts/studies/methods/truncation.lua [FINEST]
 --

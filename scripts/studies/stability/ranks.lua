@@ -113,7 +113,7 @@ for n = 10, 100, 2 do
   if file and n % 4 == 0 then s:write((file:gsub("vtu$", "pvtu"))) end -- all ranks write
 end
 ]]
-local nothing <const> = "" -- to write: writing refuses to begin with little memory, so that no allocation fails
+local nothing <const> = "" -- no file: writing checks memory first and refuses, so no allocation would fail
 local limit <const> = "prlimit --pid $victim --as=$(awk '/VmSize/ { print $2 * 1024 }' /proc/$victim/status)"
 local a_rank <const> = "victim=$(echo $workers | tr ' ' '\\n' | shuf -n 1); "
 local kinds <const> = {
@@ -125,7 +125,8 @@ local kinds <const> = {
   { "full where a rank writes", a_rank .. "prlimit --pid $victim --fsize=4096" },
   { "an exception on a rank", "rm -f ${out}_1.vtu; mkdir ${out}_1.vtu" }, -- a folder is where its file should be
 }
--- How it is started, and the processes below $runner then: by dotyk.ranks rank 0, MPI's daemon and the others; by mpirun this, and its ranks in order.
+-- How it is started, and the processes below $runner. By dotyk.ranks, rank 0's child is MPI's daemon, whose children are the other ranks. By mpirun, mpirun is the
+-- daemon; its children are all ranks in order.
 local starts <const> = {
   { "", "zero=$(children $runner); daemon=$(children $zero); workers=$(children $daemon)" },
   os.execute "command -v mpirun >/dev/null" and
@@ -175,14 +176,14 @@ for f = 1, faults do
   local late = tonumber(took) >= 60
   if late or status == "0" or left ~= "0" then
     local by = start == starts[1] and "dotyk.ranks" or "mpirun"
-    print(("not seen: %s, by %s, %d ranks, status %s, %s s, %s processes left"):format(kind[1], by, ranks, status, took, left))
+    print(("not handled: %s, by %s, %d ranks, status %s, %s s, %s processes left"):format(kind[1], by, ranks, status, took, left))
   end
   if late then hung = hung + 1 end
   if status == "0" then kept = kept + 1 end
   if left ~= "0" then stayed = stayed + 1 end
   done[kind[1]] = (done[kind[1]] or 0) + 1
   by_mpirun[kind[1]] = (by_mpirun[kind[1]] or 0) + (start == starts[2] and 1 or 0)
-  if f % 100 == 0 then io.stderr:write(f, " faults so far, ", hung + kept + stayed + wrong, " not seen\n") end
+  if f % 100 == 0 then io.stderr:write(f, " faults so far, ", hung + kept + stayed + wrong, " not handled\n") end
 end
 for _, kind in ipairs(kinds) do
   if done[kind[1]] then

@@ -24,7 +24,7 @@ OwnedPc aggregate(Mat finest) {
   check(PCSetOperators(pc, finest, finest));
   check(PCSetType(pc, PCGAMG));
   leave_out_smoothers(pc);
-  // The quicker of the two products takes half as much memory again as all the rest. Parallel matrices have others.
+  // "rap" is faster, but takes half as much memory again as all the rest. Parallel matrices have other algorithms.
   constexpr PetscInt kFew = 100'000;
   PetscInt rows = 0;
   check(MatGetSize(finest, &rows, nullptr));
@@ -100,7 +100,7 @@ void attach_near_kernel(Mat finest, const std::vector<double>& modes, int count)
   check(MatSetNearNullSpace(finest, space));
 }
 
-/// All numbers of a symmetric matrix, in arrays that PETSc uses: a copy of them would be the most that is ever needed.
+/// All entries of a symmetric matrix, in arrays that PETSc uses, and which must outlive what uses the matrix: a copy would raise the peak of memory.
 struct Whole {
   explicit Whole(const HalfMatrix& of) : own(of.full()), matrix(matrix_of(of.ranks(), own, others, of.rows(), {of.block(), of.block()})) {}
   Rows own, others;

@@ -2,6 +2,8 @@
 
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
@@ -49,33 +51,36 @@ class KeptSignals {
   sigset_t mask_;
 };
 
-/// Variables of the environment while MPI starts; those that the user has set stay as they are.
+/// Variables of the environment while MPI starts; those that the user has set stay as they are. Afterwards MPI's own are taken away, too: a program that a process
+/// of its own starts, as mpirun, would take itself for a part of it.
 class Environment {
  public:
+  Environment() : known_(variables()) {
+    for (const char* name : {"OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE"}) known_.erase(name);
+  }
   void set(const char* name, const char* value) {
-    if (std::getenv(name)) return;
-    setenv(name, value, 0);
-    names_.push_back(name);
+    if (setenv(name, value, 0) == 0) names_.emplace(name);
   }
   ~Environment() {
-    for (const char* name : names_) unsetenv(name);
+    for (const std::string& name : variables())
+      if (!known_.contains(name) && (names_.contains(name) || is_of_mpi(name))) unsetenv(name.c_str());
   }
 
  private:
-  std::vector<const char*> names_;
-};
+  static std::set<std::string> variables() {
+    std::set<std::string> names;
+    for (char** one = environ; *one; ++one) names.emplace(*one, std::strcspn(*one, "="));
+    return names;
+  }
+  static bool is_of_mpi(const std::string& name) {
+    return std::ranges::any_of(std::array{"OMPI_", "ORTE_", "OPAL_", "PMIX_"}, [&](const char* start) { return name.starts_with(start); });
+  }
 
-/// Names of all variables of the environment.
-std::set<std::string> variables() {
-  std::set<std::string> names;
-  for (char** one = environ; *one; ++one) names.emplace(*one, std::strcspn(*one, "="));
-  return names;
-}
+  std::set<std::string> known_, names_;
+};
 
 void initialise(bool spawns) {
   const KeptSignals signals;
-  std::set<std::string> known = variables();
-  for (const char* name : {"OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE"}) known.erase(name);
   Environment environment;
   if (spawns) {  // in containers too: as root, and more ranks than processors
     environment.set("OMPI_ALLOW_RUN_AS_ROOT", "1");
@@ -98,8 +103,6 @@ void initialise(bool spawns) {
   int count = 3;
   char** arguments = words;
   if (PetscInitialize(&count, &arguments, nullptr, nullptr) != 0) throw std::runtime_error("PETSc could not be started");
-  for (const std::string& name : variables())  // of MPI's own: programs that a script starts, as mpirun, are none of these ranks
-    if (!known.contains(name)) unsetenv(name.c_str());
   check(PetscPushErrorHandler(note_error, nullptr));
   check(PetscOptionsSetValue(nullptr, "-mat_cholmod_print", "0"));  // what is not definite is told by set()
 }

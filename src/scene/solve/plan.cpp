@@ -73,8 +73,8 @@ std::string method(const problem::Problem& problem, bool any_free) {
       return text("pdas on all ", problem.unknowns(), " unknowns, one sparse factorisation an iteration (reduced = false): its ", problem.rows(),
                   " rows need not be condensed, or are too many");
     case solver::DefaultMethod::multigrid: {
-      const auto [factors, multigrid] = solver::expected(problem);
-      return text("multigrid on all ", problem.unknowns(), " unknowns: some ", cost(multigrid), ", where factors would take some ", cost(factors));
+      const solver::Expected e = solver::expected(problem);
+      return text("multigrid on all ", problem.unknowns(), " unknowns: some ", cost(e.multigrid), ", where factors would take some ", cost(e.factors));
     }
     case solver::DefaultMethod::pdas: break;
   }

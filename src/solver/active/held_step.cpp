@@ -29,8 +29,9 @@ constexpr int kMostSteps = 60, kMostRounds = 3;
 constexpr double kOff = 1e-12, kAim = 1e-15;
 /// What refinement aims at: forces left on unknowns that are not held, relative to the loads and multipliers. Direct solvers go to kUnbalanced at once.
 /// Iterative ones do not, since digits cost iterations. Without friction, steps go to kRough until the active set comes to rest, then to kSharper. With friction,
-/// steps converge as Newton's method does: each goes to kOfOff times the last violation of the laws, relative to the forces of the rows, but at least to
-/// kSharper. Rougher steps became more numerous where stiffnesses differ by a factor of 100. The last ones go to kOfTolerance times the tolerance of the method.
+/// steps converge as Newton's method does: each goes to kOfOff times the last violation of the laws, relative to the forces of the rows, but is never
+/// rougher than kSharper: more steps were needed otherwise where stiffnesses differ by a factor of 100. The last steps, with friction or without, go to
+/// kOfTolerance times the tolerance of the method.
 constexpr double kUnbalanced = 1e-12, kOfTolerance = 0.01, kSharper = 1e-3, kRough = 0.03, kOfOff = 0.01;
 constexpr int kMostRefinements = 6;        ///< of one step
 constexpr double kShare = 0.3;             ///< of what refinement aims at, what one goes to
@@ -49,7 +50,7 @@ class HeldStep final : public Step {
     for (const problem::FrictionGroup& group : problem.friction)
       for (int r = group.first; r < group.row(group.points()); ++r)
         if (basis_.unknown[r] < 0)
-          throw NotSolved(text("multigrid, as pdas on all unknowns, cannot treat the ", group.law->name(), " of the ", group.name, " at ",
+          throw NotSolved(text("pdas on all unknowns, which multigrid uses, cannot treat the ", group.law->name(), " of the ", group.name, " at ",
                                problem.name_of(r), ": other rows have taken the unknowns there, as at corners; newton can"));
   }
 

@@ -41,7 +41,7 @@ HeldStiffness::HeldStiffness(const Problem& problem, const RigidMotions& rigid, 
     : problem_(problem), basis_(problem::row_basis(problem)), unnoticed_(problem::unnoticed_displacements(problem, rigid)), rows_(basis_.times(problem.B)),
       fixing_(algebra::fixing_unknowns(unnoticed_)) {
   if (unnoticed_.cols() > 0 && problem.hides())
-    throw InputError("nothing notices " + problem::describe(rigid.motions, rigid.unnoticed.col(0)) + ": with refine on several ranks a support or a contact must. Hold it, or leave 'refine' away");
+    throw InputError("nothing notices " + problem::describe(rigid.motions, rigid.unnoticed.col(0)) + ": with refine on several ranks a support or a contact must. Hold it, or leave out 'refine'");
   rows_.prune([](auto, auto, double value) { return std::abs(value) > 1e-14; });
   fix_noticed(rigid);
   const algebra::Triplets beside = assemble(make.takes_slices);

@@ -163,7 +163,7 @@ Result solve_nested(const problem::Problem& problem, Pdas settings, Monitor& mon
 
 Result solve(const problem::Problem& problem, const Pdas& settings, Monitor& monitor) {
   if (settings.reduced || settings.step) require_frictionless(problem, "pdas");
-  require_springs(problem, settings.reduced ? "pdas" : "multigrid, as pdas on all unknowns,");
+  require_springs(problem, settings.reduced ? "pdas" : "pdas on all unknowns, which multigrid uses,");
   if (settings.nested && settings.start.empty() && !settings.from) return solve_nested(problem, settings, monitor);
   SetIteration it(problem, settings, monitor);
   Stopwatch iterating;

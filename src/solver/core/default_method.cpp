@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/error.hpp"
 #include "base/memory.hpp"
@@ -19,9 +20,10 @@ namespace {
 
 /// Below so many unknowns nothing takes long enough to be worth an estimate.
 constexpr int kLarge = 8000;
-/// Multigrid is taken where it is kFaster times as fast as factors, or kFactorIsKept times where all steps of a history use one factor.
-constexpr double kFaster = 1.1, kFactorIsKept = 10;
-constexpr double kOpening = 0.18;  ///< seconds that the library of multigrid takes to open
+/// Multigrid is taken where it is estimated to be kFaster times as fast as factors: its number of iterations is less certain. Where one factor serves all steps of
+/// a history, kFactorIsKept times.
+constexpr double kFaster = 1.4, kFactorIsKept = 10;
+constexpr double kOpening = 0.2;  ///< seconds that the library of multigrid takes to open
 
 }  // namespace
 
@@ -32,18 +34,28 @@ bool multigrid_is_possible(const problem::Problem& problem) {
 
 namespace {
 
+/// Is there memory for factors, and for what is made beside them? The rule of expected() is within a sixth of what orderings predict.
+bool factors_fit(const Expected& e) { return memory_for(1.25 * e.factors.bytes); }
+
 /// Is multigrid faster by more than so many times, or memory too short for factors?
-bool takes_multigrid(const problem::Problem& problem, double times = kFaster) {
+bool takes_multigrid(const problem::Problem& problem) {
   if (!multigrid_is_possible(problem)) return false;
   const Expected e = expected(problem);
-  return e.factors.seconds > times * e.multigrid.seconds || !memory_for(e.factors.bytes);
+  return e.factors.seconds > kFaster * e.multigrid.seconds || !factors_fit(e);
 }
 
-/// The number of iterations a linear system beyond which factors are the faster way, once the library is open.
+/// The same for a step of a history; memory does not count where the factor is there.
+bool takes_multigrid(const problem::Problem& problem, const problem::Condenser& condenser) {
+  const Expected e = expected(problem);
+  return e.factors.seconds > kFactorIsKept * e.multigrid.seconds || (!condenser.holds() && !factors_fit(e));
+}
+
+/// The number of iterations a linear system beyond which factors are the faster way, once the library is open. Infinite where memory is too short for them.
 double most_iterations(const problem::Problem& problem) {
+  const Expected e = expected(problem);
+  if (!factors_fit(e)) return std::numeric_limits<double>::infinity();
   constexpr double kShare = 0.4;  // of the seconds that the usual ones take
   const double usual = problem::coarser_meshes(problem) > 1 ? 25 : 45;
-  const Expected e = expected(problem);
   return usual * (1 + std::max(0.0, e.factors.seconds / (e.multigrid.seconds - kOpening) - 1) / kShare);
 }
 
@@ -68,26 +80,29 @@ bool rows_stand_apart(const problem::Problem& problem) {
 }  // namespace
 
 Expected expected(const problem::Problem& problem) {
-  // Constants measured by scripts/studies/crossing.lua, for n unknowns and m points of contact with d components each. A factor takes 7.5 n² operations in space
-  // and 210 n^1.5 in the plane. Contact takes 3 (dm)³ more for its dense matrices, or else a factor a step. Ordering grows with n.
-  constexpr double kFlops = 1.25e10, kSteps = 8;
+  // Constants measured by scripts/studies/crossing.lua. n: unknowns. m: contact points, each with d components. A factor takes 7.5 n² operations in space (order 2:
+  // 10 n²) and 80 n^1.5 in the plane (order 2: 130 n^1.5). Frictionless contact adds 3 (dm)³ for dense matrices, or takes a factor a step. Ordering grows with n.
+  constexpr double kFlops = 1.25e10, kSteps = 8, kFriction = 1.5;
+  constexpr double kMultigrid[2][2][2] = {{{2.2e-6, 7e-6}, {4.8e-6, 9.6e-6}}, {{4e-6, 1.6e-5}, {4.8e-5, 4.8e-5}}};  // plane, space; order 1, 2; meshes, aggregates
   constexpr int kRigidMotions = 6;
   const bool space = problem.blocks.front().rigid().cols() == kRigidMotions;
-  const bool geometric = problem::coarser_meshes(problem) > 1;
+  const bool geometric = problem::coarser_meshes(problem) > 1, linear = all_linear(problem), friction = !problem.friction.empty();
   const bool quadratic = std::any_of(problem.blocks.begin(), problem.blocks.end(), [](const problem::Block& b) { return b.coarse.order == 2; });
-  const double unknown = (space ? 4e-6 : 2.5e-6) * (geometric ? 1 : 6) * (quadratic ? 3 : 1);  // seconds of multigrid; twice as many entries and iterations
   double tangential = 0;
   for (const problem::FrictionGroup& group : problem.friction) tangential += group.components * group.points();
-  const double n = problem.unknowns(), m = NearRows(problem, {}).count() * (1 - tangential / std::max(problem.rows(), 1)) * !all_linear(problem);
-  const double solves = all_linear(problem) ? 0.6 : problem.friction.empty() ? 1 : 1.6;  // times as many iterations
-  const auto factor_of = [&](double size) { return space ? 7.5 * size * size : 210 * std::pow(size, 1.5); };
-  double factor = 0;  // of each body, or of all where they are glued
-  for (const problem::Block& block : problem.blocks) factor += factor_of(block.size());
-  if (problem.rows() > 0 && all_linear(problem)) factor = factor_of(n);
-  const double rows = (space ? 81 : 24) * m * m * m, each = problem.friction.empty() ? kSteps * factor_of(n) : INFINITY;
-  const double factor_bytes = space ? 200 * std::pow(n, 4.0 / 3) : 60 * n * std::log2(std::max(n, 2.0));
-  return {{(space ? 6e-6 : 1e-6) * n + std::min(factor + rows, each) / kFlops, factor_bytes + problem::dense_bytes(m)},
-          {kOpening + unknown * n * solves, (space ? 1000 : 500) * (geometric ? 1 : 1.8) * n}};
+  const double n = problem.unknowns(), m = NearRows(problem, {}).count() * (1 - tangential / std::max(problem.rows(), 1)) * !linear;
+  const double solves = linear ? 0.6 : friction ? 1.6 : 1;               // times as many iterations
+  const double several_bodies = problem.blocks.size() > 1 ? 2 : 1;       // times the work of one
+  const auto factor_of = [&](double size) { return space ? (quadratic ? 10 : 7.5) * size * size : (quadratic ? 130 : 80) * std::pow(size, 1.5); };
+  const auto bytes_of = [&](double size) { return space ? 200 * std::pow(size, 4.0 / 3) : 60 * size * std::log2(std::max(size, 2.0)); };
+  double factor = 0, bytes = problem::dense_bytes(NearRows(problem, {}).count());
+  const bool glued = problem.rows() > 0 && linear;  // else each body has a factor of its own
+  for (const problem::Block& block : problem.blocks) factor += factor_of(block.size()), bytes += glued ? 0 : bytes_of(block.size());
+  if (glued) factor = factor_of(n), bytes = bytes_of(n);
+  const double rows = (space ? 81 : 24) * m * m * m, each = friction ? INFINITY : kSteps * factor_of(n);
+  const double factors = (space ? 6e-6 : 1e-6) * n + std::min(factor + rows, each) / kFlops;
+  return {{factors * (friction ? kFriction : 1), bytes},
+          {kOpening + kMultigrid[space][quadratic][!geometric] * n * solves * several_bodies, (space ? 1000 : 500) * (geometric ? 1 : 1.8) * (quadratic ? 2.5 : 1) * n}};
 }
 
 DefaultMethod default_method(const problem::Problem& problem) {
@@ -190,24 +205,20 @@ Result solve(const problem::Problem& problem, const Method& method, Beginning fr
     if (auto result = run_turned(problem, from, monitor)) return *std::move(result);
   const DefaultMethod by_default = default_method(problem);
   Result before;
-  const bool by_multigrid = by_default == DefaultMethod::multigrid && (!from.condenser || takes_multigrid(problem, kFactorIsKept));
+  const bool by_multigrid = by_default == DefaultMethod::multigrid && (!from.condenser || takes_multigrid(problem, *from.condenser));
   if (!condensed && (by_multigrid || (by_default == DefaultMethod::held && !from.condenser))) {
     before = run_held(problem, by_multigrid, from, monitor);
     if (before.converged || monitor.stop()) return before;
   }
-  std::string tried = before.reason.empty() ? "" : "; before, on all unknowns: " + before.reason;
+  const std::string tried = before.reason.empty() ? "" : "; before, on all unknowns: " + before.reason;
   try {
-    Result result = run_otherwise(problem, by_default, from, monitor, condensed);
+    Result result = run_otherwise(problem, by_default, std::move(from), monitor, condensed);
     result.reason += tried;
     if (!tried.empty()) result.clock.add_solve(before.clock);
     return result;
-  } catch (const MemoryShort& error) {  // the orderings say so, where the rule did not
-    if (!condensed && !by_multigrid && multigrid_is_possible(problem)) {
-      before = run_held(problem, true, std::move(from), monitor);
-      if (before.converged || monitor.stop()) return before;
-      tried = "; by multigrid: " + before.reason;
-    }
-    throw MemoryShort(error.what() + tried);
+  } catch (const InputError& error) {
+    if (tried.empty()) throw;
+    throw InputError(error.what() + tried);
   }
 }
 

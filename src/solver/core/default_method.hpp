@@ -9,13 +9,13 @@ namespace dotyk::solver {
 /// What solves a problem where no method is named.
 enum class DefaultMethod { linear, pdas, held, newton, multigrid };
 
-/// Multigrid, for solid bodies, where it is installed and promises to be faster, or memory for factors is short; else without
-/// rows one linear solve; with friction, or a law that does not tell its springs, newton; else pdas: on the condensed rows, or held on all unknowns
-/// (reduced = false). That is where all of at least 150 rows are glue, or linear otherwise, one factorisation in all, and where rows are more than 3000 and more than a tenth of the unknowns, as on strips and plates that touch
-/// all along: a dense factor takes the cube of their number then, sparse ones of a thin body far less.
+/// Multigrid, for solid bodies, where it is installed and promises to be faster, or memory for factors is short at this moment. Otherwise: without rows, one
+/// linear solve; with friction, or a law that does not tell its springs, newton; else pdas on the condensed rows, or held on all unknowns (reduced = false).
+/// That is where all of at least 150 rows are glue, or linear otherwise, one factorisation in all, and where rows are more than 3000 and more than a tenth of
+/// the unknowns, as on strips and plates that touch all along: a dense factor takes the cube of their number then, sparse ones of a thin body far less.
 DefaultMethod default_method(const problem::Problem& problem);
 
-/// Can multigrid be the default method: are the bodies solid, do laws tell their springs, is it installed, and are there so many unknowns that a choice is worth an estimate?
+/// Whether multigrid may be chosen: it is installed, bodies are solid, laws tell their springs, and the problem is large enough for an estimate.
 bool multigrid_is_possible(const problem::Problem& problem);
 
 /// What solid bodies are expected to take on one core, to a factor of two: seconds, with few iterations of multigrid and the time in which its library is

@@ -107,7 +107,7 @@ Self transform(Call& call) {
   std::vector<char> flagged;
   if (call.has("part")) {
     const auto part = moved->parts.find(call.text("part"));
-    if (part == moved->parts.end()) throw InputError("the mesh has no part '" + call.text("part") + "'; it has" + shown(mesh_part_names(handle)));
+    if (part == moved->parts.end()) throw InputError("the mesh has no part '" + call.text("part") + "'; it has" + (moved->parts.empty() ? " none" : shown(mesh_part_names(handle))));
     flagged = mesh::flag_nodes(*moved, part->second);
   }
   mesh::transform(*moved, point_map(call.function("map"), moved->dimension()), flagged);
@@ -270,14 +270,14 @@ void bind_mesh(Library& library) {
       .field("notes", "of a mesh from a file: what the file has and the mesh has not, sentences", &MeshHandle::notes)
       .method({.name = "mesh:transform",
                .help = "Moves every node, or those of a boundary part, to map(x, y[, z]). Bodies made before keep the mesh as it was. A map that "
-                       "inverts a cell is an error and changes nothing. The coarser meshes of mesh:refined are remembered.",
+                       "inverts a cell is an error and changes nothing. Multigrid keeps the coarser meshes of mesh:refined.",
                .example = "m:transform(function(x, y) return x, y + 0.1 * x^2 end)",
                .arguments = {key::function("map", "coordinates to new coordinates").required(),
-                             key::string("part", "whose nodes move: onto the curve or surface that it stands for").otherwise("all nodes")},
+                             key::string("part", "the boundary part whose nodes move, for instance onto the curve or surface that it approximates").otherwise("all nodes")},
                .run = transform})
       .method({.name = "mesh:refined",
                .help = "A new mesh with each cell cut into 4 in the plane, 8 in space, so many times, its parts with it. Curved sides of order 2 stay the "
-                       "same curves; of order 1 new nodes lie on the chords, from which mesh:transform moves them. The coarser meshes are remembered: dotyk.solver.multigrid has its levels from them.",
+                       "same curves; in meshes of order 1 new nodes lie on the chords, and mesh:transform can move them onto the curve. The coarser meshes are remembered: dotyk.solver.multigrid has its levels from them.",
                .example = "local fine = m:refined(2)",
                .arguments = {key::integer("times", "how often").within(0, 20).fallback(1.0)},
                .run = refined})

@@ -271,7 +271,7 @@ void bind_picture(Library& library) {
          if (call.has("options") && call.table("options").has("pieces")) grid.pieces = static_cast<int>(call.table("options").number("pieces"));
          figure::write(grid);
          if (s->model().problem.hides())
-           std::fprintf(stderr, "dotyk: %s has the cells at the boundary; a .pvtu has all\n", call.text("file").c_str());
+           std::fprintf(stderr, "dotyk: %s has only the cells at the boundary; a .pvtu has all cells\n", call.text("file").c_str());
          return call.text("file");
        }});
 }
