@@ -83,19 +83,19 @@ Expected expected(const problem::Problem& problem) {
   // Constants measured by scripts/studies/crossing.lua. n: unknowns. m: contact points, each with d components. A factor takes 7.5 n² operations in space (order 2:
   // 10 n²) and 80 n^1.5 in the plane (order 2: 130 n^1.5). Frictionless contact adds 3 (dm)³ for dense matrices, or takes a factor a step. Ordering grows with n.
   constexpr double kFlops = 1.25e10, kSteps = 8, kFriction = 1.5;
-  constexpr double kMultigrid[2][2][2] = {{{2.2e-6, 7e-6}, {4.8e-6, 9.6e-6}}, {{4e-6, 1.6e-5}, {4.8e-5, 4.8e-5}}};  // plane, space; order 1, 2; meshes, aggregates
+  constexpr double kMultigrid[2][2][2] = {{{2.2e-6, 7e-6}, {4.8e-6, 9.6e-6}}, {{4e-6, 1.6e-5}, {4.8e-5, 4.8e-5}}};  // seconds an unknown: plane, space; order 1, 2; meshes, aggregates
   constexpr int kRigidMotions = 6;
   const bool space = problem.blocks.front().rigid().cols() == kRigidMotions;
   const bool geometric = problem::coarser_meshes(problem) > 1, linear = all_linear(problem), friction = !problem.friction.empty();
   const bool quadratic = std::any_of(problem.blocks.begin(), problem.blocks.end(), [](const problem::Block& b) { return b.coarse.order == 2; });
   double tangential = 0;
   for (const problem::FrictionGroup& group : problem.friction) tangential += group.components * group.points();
-  const double n = problem.unknowns(), m = NearRows(problem, {}).count() * (1 - tangential / std::max(problem.rows(), 1)) * !linear;
+  const double n = problem.unknowns(), near = NearRows(problem, {}).count(), m = near * (1 - tangential / std::max(problem.rows(), 1)) * !linear;
   const double solves = linear ? 0.6 : friction ? 1.6 : 1;               // times as many iterations
   const double several_bodies = problem.blocks.size() > 1 ? 2 : 1;       // times the work of one
   const auto factor_of = [&](double size) { return space ? (quadratic ? 10 : 7.5) * size * size : (quadratic ? 130 : 80) * std::pow(size, 1.5); };
   const auto bytes_of = [&](double size) { return space ? 200 * std::pow(size, 4.0 / 3) : 60 * size * std::log2(std::max(size, 2.0)); };
-  double factor = 0, bytes = problem::dense_bytes(NearRows(problem, {}).count());
+  double factor = 0, bytes = problem::dense_bytes(near);
   const bool glued = problem.rows() > 0 && linear;  // else each body has a factor of its own
   for (const problem::Block& block : problem.blocks) factor += factor_of(block.size()), bytes += glued ? 0 : bytes_of(block.size());
   if (glued) factor = factor_of(n), bytes = bytes_of(n);
