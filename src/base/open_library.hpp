@@ -47,7 +47,7 @@ inline LibraryPlace look_for(const SharedLibrary& library) {
   return result;
 }
 
-/// Opens what look_for() found, if it is not open.
+/// Opens what look_for() found, or returns it if it is open already.
 inline void* open_library(const SharedLibrary& library, const std::string& place) {
   if (void* handle = dlopen(place.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NOLOAD)) return handle;  // an open library needs no more address space
   require_address_space(library.bytes, library.what);

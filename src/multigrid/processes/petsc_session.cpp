@@ -51,8 +51,8 @@ class KeptSignals {
   sigset_t mask_;
 };
 
-/// Variables of the environment while MPI starts; those that the user has set stay as they are. Afterwards MPI's own are taken away, too: a program that a process
-/// of its own starts, as mpirun, would take itself for a part of it.
+/// Sets variables of the environment while MPI starts, but none that the user has set. Afterwards they are removed, and so are those that MPI has set itself: a
+/// program that a script starts, such as mpirun, would take itself for one of these ranks.
 class Environment {
  public:
   Environment() : known_(variables()) {

@@ -20,31 +20,22 @@ namespace {
 
 /// Below so many unknowns nothing takes long enough to be worth an estimate.
 constexpr int kLarge = 8000;
-/// Multigrid is taken where it is estimated to be kFaster times as fast as factors: its number of iterations is less certain. Where one factor serves all steps of
-/// a history, kFactorIsKept times.
+/// Multigrid is chosen where factors are estimated to take kFaster times as long, since its number of iterations is less certain. In a history, where one factor
+/// serves all steps, they must take kFactorIsKept times as long.
 constexpr double kFaster = 1.4, kFactorIsKept = 10;
 constexpr double kOpening = 0.2;  ///< seconds that the library of multigrid takes to open
 
-}  // namespace
-
-bool multigrid_is_possible(const problem::Problem& problem) {
-  const bool solid = std::all_of(problem.blocks.begin(), problem.blocks.end(), [](const problem::Block& b) { return bool(b.rigid); });
-  return problem.unknowns() >= kLarge && problem.subdomains.empty() && solid && multigrid::available() && tells_springs(problem);
-}
-
-namespace {
-
-/// Is there memory for factors, and for what is made beside them? The rule of expected() is within a sixth of what orderings predict.
+/// Whether memory suffices for the factors and a quarter more for other arrays. The bytes of expected() are within a sixth of what orderings predict.
 bool factors_fit(const Expected& e) { return memory_for(1.25 * e.factors.bytes); }
 
-/// Is multigrid faster by more than so many times, or memory too short for factors?
+/// Whether multigrid promises to be faster, or memory is too short for factors.
 bool takes_multigrid(const problem::Problem& problem) {
   if (!multigrid_is_possible(problem)) return false;
   const Expected e = expected(problem);
   return e.factors.seconds > kFaster * e.multigrid.seconds || !factors_fit(e);
 }
 
-/// The same for a step of a history; memory does not count where the factor is there.
+/// The same for a step of a history. Where its factor exists already, memory is no reason for multigrid.
 bool takes_multigrid(const problem::Problem& problem, const problem::Condenser& condenser) {
   const Expected e = expected(problem);
   return e.factors.seconds > kFactorIsKept * e.multigrid.seconds || (!condenser.holds() && !factors_fit(e));
@@ -79,8 +70,13 @@ bool rows_stand_apart(const problem::Problem& problem) {
 
 }  // namespace
 
+bool multigrid_is_possible(const problem::Problem& problem) {
+  const bool solid = std::all_of(problem.blocks.begin(), problem.blocks.end(), [](const problem::Block& b) { return bool(b.rigid); });
+  return problem.unknowns() >= kLarge && problem.subdomains.empty() && solid && multigrid::available() && tells_springs(problem);
+}
+
 Expected expected(const problem::Problem& problem) {
-  // Constants measured by scripts/studies/crossing.lua. n: unknowns. m: contact points, each with d components. A factor takes 7.5 n² operations in space (order 2:
+  // Constants measured by scripts/studies/crossing.lua. n: unknowns; m: contact points with d components each. A factor takes 7.5 n² operations in space (order 2:
   // 10 n²) and 80 n^1.5 in the plane (order 2: 130 n^1.5). Frictionless contact adds 3 (dm)³ for dense matrices, or takes a factor a step. Ordering grows with n.
   constexpr double kFlops = 1.25e10, kSteps = 8, kFriction = 1.5;
   constexpr double kMultigrid[2][2][2] = {{{2.2e-6, 7e-6}, {4.8e-6, 9.6e-6}}, {{4e-6, 1.6e-5}, {4.8e-5, 4.8e-5}}};  // seconds an unknown: plane, space; order 1, 2; meshes, aggregates
@@ -97,8 +93,8 @@ Expected expected(const problem::Problem& problem) {
   const auto bytes_of = [&](double size) { return space ? 200 * std::pow(size, 4.0 / 3) : 60 * size * std::log2(std::max(size, 2.0)); };
   double factor = 0, bytes = problem::dense_bytes(near);
   const bool glued = problem.rows() > 0 && linear;  // else each body has a factor of its own
-  for (const problem::Block& block : problem.blocks) factor += factor_of(block.size()), bytes += glued ? 0 : bytes_of(block.size());
   if (glued) factor = factor_of(n), bytes = bytes_of(n);
+  else for (const problem::Block& block : problem.blocks) factor += factor_of(block.size()), bytes += bytes_of(block.size());
   const double rows = (space ? 81 : 24) * m * m * m, each = friction ? INFINITY : kSteps * factor_of(n);
   const double factors = (space ? 6e-6 : 1e-6) * n + std::min(factor + rows, each) / kFlops;
   return {{factors * (friction ? kFriction : 1), bytes},
@@ -183,7 +179,7 @@ std::optional<Result> run_turned(const problem::Problem& problem, const Beginnin
   return std::nullopt;
 }
 
-/// Not held on all unknowns.
+/// By one linear solve without rows; else on the rows that overlap first; else by run().
 Result run_otherwise(const problem::Problem& problem, DefaultMethod by_default, Beginning from, Monitor& monitor, std::optional<bool> condensed) {
   if (problem.rows() == 0) return solve_linear(problem, {}, monitor);
   if (!from.condenser && !condensed) {

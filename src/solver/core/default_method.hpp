@@ -18,8 +18,8 @@ DefaultMethod default_method(const problem::Problem& problem);
 /// Whether multigrid may be chosen: it is installed, bodies are solid, laws tell their springs, and the problem is large enough for an estimate.
 bool multigrid_is_possible(const problem::Problem& problem);
 
-/// What solid bodies are expected to take on one core, to a factor of two: seconds, with few iterations of multigrid and the time in which its library is
-/// opened; and bytes. There must be a body.
+/// Estimates for solid bodies on one core, right to a factor of two. The seconds of multigrid include the opening of its library; few iterations are assumed.
+/// There must be a body.
 struct Expected {
   struct Cost {
     double seconds, bytes;
