@@ -58,7 +58,7 @@ table.sort(sizes)
 local last <const>, middle <const> = sizes[#sizes], math.min(sizes[#sizes], 32)
 io.write "Seconds, megabytes, and kilobytes an unknown\n  n  unknowns"
 for k, method in ipairs(methods) do
-  local name <const> = (k < 3 and "multigrid, " or "") .. method[1]
+  local name <const> = ({ "multigrid (meshes)", "multigrid (aggregates)" })[k] or method[1]
   method.seconds, method.bytes = { name = name, x = {}, y = {} }, { name = name, x = {}, y = {} }
   io.write(("%29s"):format(method[1]))
 end
@@ -113,7 +113,7 @@ for p, what in ipairs{ "seconds", "bytes" } do
   panels[p] = { y = what, log = "xy", series = series, slopes = { 1, p == 1 and 2 or 4 / 3 } } -- 2 and 4/3: factors of a cube, in theory
 end
 if #sizes > 1 then
-  dotyk.chart{ file = "images/scale.png", title = "A rigid paraboloid on a cube", x = "unknowns", panels = panels, size = { 1000, 1100 } }
+  dotyk.chart{ file = "images/scale.png", title = "A rigid paraboloid on a cube", x = "unknowns", panels = panels, size = { 1000, 1200 } }
 end
 
 -- 3. Contact against one linear solve by the same hierarchy.
