@@ -100,7 +100,7 @@ for _, entry in ipairs(scenes) do
     local line, fastest = ("%-24s%9d%9.3fs  %-16s"):format(name, unknowns, default, by), default
     for k, method in ipairs(methods) do
       local factors <const> = k < 4
-      local fits <const> = (not factors or about < (entry[3] == square and 1e6 or 120e3)) and (k ~= 1 or not (entry[5] and entry[5].friction))
+      local fits <const> = (not factors or about < (entry[3] == square and 1e6 or 250e3)) and (k ~= 1 or not (entry[5] and entry[5].friction))
       local t <const> = fits and seconds(make, method[2]) or nil
       if t then fastest = math.min(fastest, t) end
       line = line .. (k == 2 and "%14s" or k == 4 and "%11s" or "%10s"):format(t and ("%.3f"):format(t) or "-")

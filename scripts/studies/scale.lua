@@ -39,14 +39,14 @@ if arg[1] == "one" then -- this is such a process
   local method <const>, n <const>, ranks <const>, refine <const> = methods[tonumber(arg[2])][2], tonumber(arg[3]), tonumber(arg[4]), tonumber(arg[5])
   if ranks > 1 then dotyk.ranks(ranks) end
   solved(method(8), cube(4))
-  local s <const> = solved(method(n), cube(n, { refine = refine }))
+  local s <const> = solved(method(n), cube(n, { refine = refine, friction = tonumber(arg[6]) }))
   local cg <const>, newton <const> = s.multigrid and s.multigrid.cg or 0, s.multigrid and s.multigrid.newton or 0
   -- The peaks of the other ranks, which are grandchildren of this one.
   local status <const> = io.popen "cd /proc; for p in $(cat $PPID/task/*/children); do for r in $(cat $p/task/*/children); do cat $r/status; done; done 2>&1"
-  local other = 0
-  for kilobytes in status:read "a":gmatch "VmHWM:%s*(%d+)" do other = math.max(other, kilobytes * 1e3) end
-  print(("return { unknowns = %d, energy = %.17g, seconds = %.17g, iterate = %.17g, bytes = %.17g, other = %.17g,"):format(s.unknowns, s.energy, s.time.total,
-    s.time.iterate, include "../lib/peak_memory.lua"() * 1e9, other), ("multigrid = { cg = %d, newton = %d }, converged = true }"):format(cg, newton))
+  local others = 0
+  for kilobytes in status:read "a":gmatch "VmHWM:%s*(%d+)" do others = others + kilobytes * 1e3 end
+  print(("return { unknowns = %d, energy = %.17g, seconds = %.17g, iterate = %.17g, bytes = %.17g, others = %.17g,"):format(s.unknowns, s.energy, s.time.total,
+    s.time.iterate, include "../lib/peak_memory.lua"() * 1e9, others), ("multigrid = { cg = %d, newton = %d }, converged = true }"):format(cg, newton))
   return
 end
 
@@ -175,16 +175,19 @@ do
     network, latency * 1e6, bandwidth / 1e9))
   print(("coarse levels     %8.0f unknowns and fewer, whole on each rank: %.4f s an iteration, as fast as here"):format(whole, whole * iteration))
   print(("iterations        %8d in %d steps, if they stay as here: %.0f s"):format(its, s.multigrid.newton, its * (own * iteration + whole * iteration + network)))
-  print(("contact           %8.0f of %d ranks have nodes of the top; their share of rows decides about the other ranks' waiting"):format(ranks^(2 / 3), ranks))
+  print(("contact           %8.0f nodes of the top, whose rows rank 0 makes and follows alone, while the others wait"):format((all / 3)^(2 / 3)))
   local function surplus(refine) -- of rank 0 over the other one of two
     local s <const> = one(1, last, 2, refine)
-    assert(s.other > 0, "the other rank is not found")
-    return (s.bytes - s.other) / 1e9
+    assert(s.others > 0, "the other rank is not found")
+    return (s.bytes - s.others) / 1e9
   end
   local without <const>, with <const> = surplus(0), surplus(last < 32 and 1 or 2)
   print "What breaks first"
   print(("rank 0            %8.0f GB more than the others, if that grows as the unknowns do: it has the whole mesh. Here %.3f GB on two ranks"):format(
     without * all / unknowns, without))
-  print(("with refine       %8.1f GB more, if that grows as the boundary does. Here %.3f GB"):format(with * (all / unknowns)^(2 / 3), with))
+  local numbers <const> = 4 * all * 8 / 7 / 1e9 -- an int for each row of all levels
+  print(("with refine       %8.1f GB more: %.1f, if that grows as the boundary does (here %.3f), and %.1f of numbers of all unknowns"):format(
+    with * (all / unknowns)^(2 / 3) + numbers, with * (all / unknowns)^(2 / 3), with, numbers))
+  print(("each rank         %8.1f GB more: the product for a coarser level keeps 12 bytes for each of its nodes, on every rank"):format(12 * all / 3 / 7 / 1e9))
   print(("then latency      %8.0f nodes a rank on the coarsest level that is shared, which sends more messages than the finest"):format(8 * whole / 3 / ranks))
 end

@@ -19,7 +19,7 @@ namespace {
 
 const SharedLibrary& petsc() {
   static const SharedLibrary library = [] {
-    SharedLibrary l{"libdotyk_multigrid_petsc.so", "the library of algebraic multigrid", 400e6, DOTYK_MULTIGRID_LIBDIR, ""};
+    SharedLibrary l{"libdotyk_multigrid_petsc.so", "the library of multigrid", 400e6, DOTYK_MULTIGRID_LIBDIR, ""};
 #ifdef DOTYK_MULTIGRID_BUILD_LIBRARY
     l.built = DOTYK_MULTIGRID_BUILD_LIBRARY;
 #endif
@@ -37,7 +37,7 @@ template <class Function>
 Function* door(const char* name) {
   const LibraryPlace place = look_for(petsc());
   if (place.found.empty())
-    throw InputError("algebraic multigrid, and work on several ranks, need PETSc's library: install it (apt-get install --no-install-recommends "
+    throw InputError("multigrid, and work on several ranks, need PETSc's library: install it (apt-get install --no-install-recommends "
                      "libpetsc-real-dev; ./dotyk --setup-only does) and build again");
   algebra::reserve_blas_buffer();  // PETSc's aggregates need it: a rank that does not get it would ask for ever, and all others wait
   const auto function = reinterpret_cast<Function*>(dlsym(open_library(petsc(), place.found), name));

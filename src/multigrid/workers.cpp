@@ -185,6 +185,7 @@ void spawn_workers(int ranks, const std::string& program) {
   char word[] = "--worker";
   char* words[] = {word, nullptr};
   MPI_Comm_set_errhandler(MPI_COMM_SELF, MPI_ERRORS_RETURN);
+  const StartWatch watch;
   const int code = MPI_Comm_spawn(program.c_str(), words, ranks - 1, here, 0, MPI_COMM_SELF, &others, MPI_ERRCODES_IGNORE);
   MPI_Comm_set_errhandler(MPI_COMM_SELF, MPI_ERRORS_ARE_FATAL);
   MPI_Info_free(&here);

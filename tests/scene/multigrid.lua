@@ -150,7 +150,7 @@ do
     return starts < 2
   end
   local stopped <const> = S.multigrid{ on_iteration = watch }:solve(steep)
-  if starts == 2 then check.that(not stopped.converged and stopped.reason:find "; from rest: interrupted", stopped.reason) end
+  check.that(starts == 2 and not stopped.converged and stopped.reason:find "; from rest: interrupted", stopped.reason)
 end
 
 -- Given friction begins on coarser meshes as well.

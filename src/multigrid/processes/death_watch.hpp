@@ -4,6 +4,7 @@
 #include <sys/types.h>
 
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace dotyk::multigrid {
@@ -12,6 +13,16 @@ namespace dotyk::multigrid {
 struct Companion {
   pid_t process;
   std::string name;  ///< "rank 2 of 4"
+};
+
+/// While it lives, MPI starts other processes for this one: children of Open MPI's daemon, which is a child of this process. Where one of them dies the daemon
+/// ends all of them, and MPI_Comm_spawn would wait for ever; then this process ends, with a message and status 1. It does so, too, where none is there after a minute.
+class StartWatch {
+ public:
+  StartWatch();
+
+ private:
+  std::jthread thread_;
 };
 
 /// From now on this process ends, with status 1, as soon as one of the companions ends, and takes the others with it; it says so where `speaks`.

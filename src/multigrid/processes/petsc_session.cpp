@@ -129,7 +129,7 @@ bool petsc_started() {
 
 void check(PetscErrorCode code) {
   if (code == 0) return;
-  if (code == PETSC_ERR_MEM || last_error().find("Malloc") != std::string::npos) throw std::runtime_error("out of memory: PETSc's algebraic multigrid takes more than there is left");
+  if (code == PETSC_ERR_MEM || last_error().find("Malloc") != std::string::npos) throw std::runtime_error("out of memory: multigrid takes more than there is left");
   throw std::runtime_error("PETSc: " + (last_error().empty() ? "error " + std::to_string(code) : last_error()));
 }
 

@@ -283,7 +283,7 @@ void bind_methods(Library& library) {
       {.name = "dotyk.solver.multigrid",
        .help = "The primal-dual active set method on all unknowns, with friction as well; linear systems by conjugate gradients with multigrid "
                "(PETSc), whose iterations hardly grow with the mesh. Levels are the coarser meshes of dotyk.mesh.rectangle and box with even numbers of cells, "
-               "of mesh:refined and of second order; below the coarsest, or where there are none, aggregates of unknowns. It treats piecewise linear laws only. "
+               "of mesh:refined and of second order; below a coarsest one of many unknowns, or where there are none, aggregates of unknowns. It treats piecewise linear laws only. "
                "Friction is refused at points whose unknowns another row has taken, as at corners.",
        .example = "local s = dotyk.solver.multigrid{}:solve(scene)\nprint(s.multigrid.levels, s.multigrid.cg, s.multigrid.newton)"},
       {key::choice<Levels>("levels", {{"meshes", Levels::meshes}, {"aggregates", Levels::aggregates}}, "what levels are made of").otherwise("meshes, where they are known"),

@@ -284,7 +284,7 @@ void bind_body(Library& library) {
                          key::object<Material>("material", "what it is made of").required(),
                          key::field("force", "force per volume, its components").unit("force/volume").otherwise("none"),
                          key::integer("refine", "how often all cells are cut, into 4 in the plane, 8 in space, as by mesh:refined; E and nu are those of the cells before, a force is linear in each. "
-                                                "Several ranks cut them where they work, so that none has the whole mesh: only multigrid solves such a body, and pictures show its boundary. Curved sides of meshes of order 1 remain polygons").within(0, 10).otherwise("0")})},
+                                                "Several ranks cut them where they work, so that none has the whole mesh: only multigrid solves such a body, all bodies of a scene are cut as often, and pictures show its boundary. Curved sides of meshes of order 1 remain polygons").within(0, 10).otherwise("0")})},
                     .run = make_body});
   library.type<Body>("An elastic body with its supports and loads.")
       .setup(setup::block())
