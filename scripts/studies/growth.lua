@@ -3,8 +3,8 @@
 --   OPENBLAS_NUM_THREADS=1 ./dotyk scripts/studies/growth.lua [N…] [ranks=2] [runs=3]
 --
 -- S3, a rigid paraboloid on a cube of N³ cells, frictionless and with Coulomb's coefficient 0.3. The ranks refine a cube of at least 8³ cells where it lies.
--- Seconds are those of the whole solution, from the coarse cells to the answer; medians of so many runs, each in a process of its own (scale.lua). Memory is
--- the sum of the peaks of all ranks. The exponent is the slope of the line through the logarithms of seconds against unknowns.
+-- Seconds are those of the whole solution, from the coarse cells to the answer: of the second one in each process (scale.lua), since a virtual machine needs
+-- seconds for the memory that the first one takes from it. Medians of so many processes. Memory is the sum of the peaks of all ranks. The exponent is the slope of the line through the logarithms of seconds against unknowns.
 
 local line <const>, median <const> = include "../lib/least_squares.lua".line, include "../lib/punch_scenes.lua".median
 local program <const> = io.popen("readlink /proc/$PPID/exe"):read "l"
@@ -19,13 +19,13 @@ end
 if #sizes == 0 then table.move({ 32, 64, 96, 128, 152 }, 1, 5, 1, sizes) end
 
 local function run(n, refine, friction)
-  local pipe <close> = io.popen(("OPENBLAS_NUM_THREADS=1 '%s' '%s' one 1 %d %d %d %s 2>&1"):format(program, study, n, given.ranks, refine, friction))
+  local pipe <close> = io.popen(("OPENBLAS_NUM_THREADS=1 '%s' '%s' one 1 %d %d %d %s 2 2>&1"):format(program, study, n, given.ranks, refine, friction))
   local told <const> = pipe:read "a"
   return load(told:match "return {.*}" or error("growth: " .. told, 0))()
 end
 
 print(("S3 on %d ranks, medians of %d runs"):format(given.ranks, given.runs))
-for _, case in ipairs{ { "frictionless", "" }, { "Coulomb 0.3", "0.3" } } do
+for _, case in ipairs{ { "frictionless", "none" }, { "Coulomb 0.3", "0.3" } } do
   print(("\n%s\n   n  refine  unknowns   seconds (least to most)   GB of all ranks  kB an unknown  steps  iterations"):format(case[1]))
   local x <const>, y <const> = {}, {}
   for i, n in ipairs(sizes) do

@@ -39,7 +39,12 @@ if arg[1] == "one" then -- this is such a process
   local method <const>, n <const>, ranks <const>, refine <const> = methods[tonumber(arg[2])][2], tonumber(arg[3]), tonumber(arg[4]), tonumber(arg[5])
   if ranks > 1 then dotyk.ranks(ranks) end
   solved(method(8), cube(4))
-  local s <const> = solved(method(n), cube(n, { refine = refine, friction = tonumber(arg[6]) }))
+  local s
+  for _ = 1, tonumber(arg[7] or 1) do
+    s = nil
+    collectgarbage() -- the next solution takes the memory of this one
+    s = solved(method(n), cube(n, { refine = refine, friction = tonumber(arg[6]) }))
+  end
   local cg <const>, newton <const> = s.multigrid and s.multigrid.cg or 0, s.multigrid and s.multigrid.newton or 0
   -- The peaks of the other ranks, which are grandchildren of this one.
   local status <const> = io.popen "cd /proc; for p in $(cat $PPID/task/*/children); do for r in $(cat $p/task/*/children); do cat $r/status; done; done 2>&1"
