@@ -4,10 +4,11 @@
 --
 -- S3, a rigid paraboloid on a cube of N³ cells, frictionless and with Coulomb's coefficient 0.3. The ranks refine a cube of at least 8³ cells where it lies.
 -- Seconds are those of the whole solution, from the coarse cells to the answer: of the second one in each process (scale.lua), since a virtual machine needs
--- seconds for the memory that the first one takes from it. Medians of so many processes. Memory is the sum of the peaks of all ranks. The exponent is the slope of the line through the logarithms of seconds against unknowns.
+-- seconds for the memory that the first one takes from it. Medians of so many processes. Memory is the sum of the peaks of all ranks.
+-- The exponent is the slope of the line through the logarithms of seconds against unknowns.
 
 local line <const>, median <const> = include "../lib/least_squares.lua".line, include "../lib/punch_scenes.lua".median
-local program <const> = io.popen("readlink /proc/$PPID/exe"):read "l"
+local own_process <const> = include "../lib/own_process.lua"
 local study <const> = (arg[0]:match "(.*/)" or "./") .. "scale.lua"
 
 local sizes <const>, given <const> = {}, { ranks = 2, runs = 3 }
@@ -18,12 +19,6 @@ for _, word in ipairs(arg) do
 end
 if #sizes == 0 then table.move({ 32, 64, 96, 128, 152 }, 1, 5, 1, sizes) end
 
-local function run(n, refine, friction)
-  local pipe <close> = io.popen(("OPENBLAS_NUM_THREADS=1 '%s' '%s' one 1 %d %d %d %s 2 2>&1"):format(program, study, n, given.ranks, refine, friction))
-  local told <const> = pipe:read "a"
-  return load(told:match "return {.*}" or error("growth: " .. told, 0))()
-end
-
 print(("S3 on %d ranks, medians of %d runs"):format(given.ranks, given.runs))
 for _, case in ipairs{ { "frictionless", "none" }, { "Coulomb 0.3", "0.3" } } do
   print(("\n%s\n   n  refine  unknowns   seconds (least to most)   GB of all ranks  kB an unknown  steps  iterations"):format(case[1]))
@@ -33,7 +28,7 @@ for _, case in ipairs{ { "frictionless", "none" }, { "Coulomb 0.3", "0.3" } } do
     while coarse % 2 == 0 and coarse >= 16 do refine, coarse = refine + 1, coarse // 2 end
     local seconds <const>, s = {}, nil
     for k = 1, given.runs do
-      s = run(n, refine, case[2])
+      s = own_process(study, "one", 1, n, given.ranks, refine, case[2], 2)
       seconds[k] = s.seconds
     end
     local bytes <const>, time <const> = s.bytes + s.others, median(seconds)

@@ -29,12 +29,8 @@ local methods <const> = {
   { "FETI", function(n) return S.feti{ subdomains = { (n + 4) // 8, (n + 4) // 8, (n + 4) // 8 } } end },
   { "factors", function() return S.pdas{} end, most = 40 },
 }
-local program <const> = io.popen("readlink /proc/$PPID/exe"):read "l"
-local function one(method, n, ranks, refine)
-  local pipe <close> = io.popen(("OPENBLAS_NUM_THREADS=1 '%s' '%s' one %d %d %d %d 2>&1"):format(program, arg[0], method, n, ranks or 1, refine or 0))
-  local told <const> = pipe:read "a"
-  return load(told:match "return {.*}" or error("scale: " .. told, 0))()
-end
+local own_process <const> = include "../lib/own_process.lua"
+local function one(method, n, ranks, refine) return own_process(arg[0], "one", method, n, ranks or 1, refine or 0) end
 if arg[1] == "one" then -- this is such a process
   local method <const>, n <const>, ranks <const>, refine <const> = methods[tonumber(arg[2])][2], tonumber(arg[3]), tonumber(arg[4]), tonumber(arg[5])
   if ranks > 1 then dotyk.ranks(ranks) end

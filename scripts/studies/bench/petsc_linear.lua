@@ -3,15 +3,16 @@
 --   OPENBLAS_NUM_THREADS=1 ./dotyk scripts/studies/bench/petsc_linear.lua [N=64] [RUNS=3]
 --
 -- S3, a rigid paraboloid on a cube of N³ cells of six tetrahedra, frictionless and with Coulomb's coefficient 0.3, and two blocks of the same size, on one
--- process. PETSc's program, ../shared/reference/petsc_linear3.c, presses the same cube by a load: conjugate gradients, levels down to N / 16 cells (or as far as
--- N is even), one sweep of Gauss and Seidel, to 1e-8. It needs mpicc's headers and PETSc's (libpetsc-real-dev). Seconds without assembly on either side, PETSc's with
+-- process. PETSc's program, ../shared/reference/petsc_linear3.c, presses the same cube by a load: conjugate gradients, levels down to 4 cells, or as far as
+-- numbers of cells are even, one sweep of Gauss and Seidel, to 1e-8. It needs mpicc and PETSc's headers (libpetsc-real-dev). Seconds without assembly on either side, PETSc's with
 -- its set-up; taken in turn, medians.
 
 local n <const>, runs <const> = tonumber(arg[1]) or 64, tonumber(arg[2]) or 3
 local scenes <const>, median <const> = include "../../lib/scale_scenes.lua", include "../../lib/punch_scenes.lua".median
 local here <const> = arg[0]:match "(.*/)" or "./"
 local source <const> = here .. "../../../../shared/reference/petsc_linear3.c"
-if not io.open(source) then
+local reference <close> = io.open(source)
+if not reference then
   print("skipped: there is no " .. source)
   return
 end

@@ -31,7 +31,7 @@ struct Terminal {
   bool there = tcgetattr(STDIN_FILENO, &before) == 0;
 };
 
-/// `what` has happened; empty: says nothing.
+/// Ends this process with status 1, and says what has happened, unless `what` is empty.
 [[noreturn]] void end_run(const std::string& what, const Terminal& terminal) {
   if (terminal.there) tcsetattr(STDIN_FILENO, TCSANOW, &terminal.before);
   if (!what.empty()) std::fprintf(stderr, "\ndotyk: %s; the run ends on all ranks\n", what.c_str());
@@ -39,7 +39,7 @@ struct Terminal {
   _exit(1);
 }
 
-/// A thread that no signal reaches: signals stay the program's.
+/// Starts a thread with all signals blocked: other threads of the program receive them.
 std::jthread quiet_thread(auto work) {
   sigset_t all, mask;
   sigfillset(&all);
@@ -58,7 +58,7 @@ std::vector<pid_t> children(pid_t process) {
   return all;
 }
 
-/// MPI's daemon, which this process has started. 0: there is none.
+/// The process of MPI's daemon, a child of this one. 0: there is none.
 pid_t find_daemon() {
   for (const pid_t child : children(getpid())) {
     std::string name;

@@ -179,7 +179,7 @@ std::optional<Result> run_turned(const problem::Problem& problem, const Beginnin
   return std::nullopt;
 }
 
-/// By one linear solve without rows; else on the rows that overlap first; else by run().
+/// Without rows: one linear solve. With rows: begins on those that overlap at rest, where that applies; otherwise calls run().
 Result run_otherwise(const problem::Problem& problem, DefaultMethod by_default, Beginning from, Monitor& monitor, std::optional<bool> condensed) {
   if (problem.rows() == 0) return solve_linear(problem, {}, monitor);
   if (!from.condenser && !condensed) {
