@@ -226,24 +226,28 @@ algebra::SparseMatrix h1_gram(const Mesh& mesh, const Numbering& numbering, doub
 SpringRows spring_rows(const mesh::Mesh& mesh, const std::vector<FacetSpring>& springs, const Numbering& numbering) {
   const int dim = mesh.dimension();
   std::vector<Eigen::Triplet<double>> entries;
-  std::vector<double> stiffness;
+  std::vector<double> stiffness, c;
+  double offset = 0;
   for (const FacetSpring& spring : springs)
     for_each_facet_point(mesh, spring.facet, [&](const FacetPoint& p) {
       for (int i = 0; i < dim; ++i) {
         const double k = spring.stiffness[p.index][i] * p.measure;
-        if (!(k > 0)) continue;
-        for (int a = 0; a < p.nodes; ++a) {
-          const int v = numbering.unknown[static_cast<std::size_t>(mesh.facet_node(spring.facet, a)) * dim + i];
-          if (v < 0) throw std::logic_error("springs as rows act on unknowns alone");
-          entries.emplace_back(static_cast<int>(stiffness.size()), v, p.shape[a]);
+        const std::size_t before = entries.size();
+        double given = 0;
+        for (int a = 0; k > 0 && a < p.nodes; ++a) {
+          const std::size_t at = static_cast<std::size_t>(mesh.facet_node(spring.facet, a)) * dim + i;
+          if (const int v = numbering.unknown[at]; v >= 0) entries.emplace_back(static_cast<int>(c.size()), v, p.shape[a]);
+          else given += p.shape[a] * numbering.value(at);
         }
-        stiffness.push_back(k);
+        if (entries.size() > before) stiffness.push_back(k), c.push_back(-given);
+        else offset += 0.5 * k * given * given;
       }
     });
-  SpringRows rows{algebra::SparseRows(static_cast<Eigen::Index>(stiffness.size()), numbering.count()),
-                  Eigen::Map<const algebra::Vector>(stiffness.data(), static_cast<Eigen::Index>(stiffness.size()))};
-  rows.S.setFromTriplets(entries.begin(), entries.end());
-  return rows;
+  const auto rows = static_cast<Eigen::Index>(c.size());
+  SpringRows all{algebra::SparseRows(rows, numbering.count()), Eigen::Map<const algebra::Vector>(stiffness.data(), rows),
+                 Eigen::Map<const algebra::Vector>(c.data(), rows), offset};
+  all.S.setFromTriplets(entries.begin(), entries.end());
+  return all;
 }
 
 std::vector<double> internal_force(const Mesh& mesh, const MaterialField& material,

@@ -67,13 +67,14 @@ algebra::Triplets spring_stiffness(const mesh::Mesh& mesh, const std::vector<Fac
 Load load(const mesh::Mesh& mesh, const MaterialField& material, const std::vector<FacetSpring>& springs, const std::vector<double>& force,
           const Numbering& numbering);
 
-/// Springs as rows: ½ Σ k_q (Sv)_q² of the unknowns v is what assemble() makes of them.
+/// Springs as rows: ½ Σ k_q (Sv − c)_q² + offset is their energy, v the unknowns.
 struct SpringRows {
-  algebra::SparseRows S;      ///< one a quadrature point and component with a spring: its displacement there
+  algebra::SparseRows S;      ///< one a quadrature point and component with a spring and unknowns: its displacement there
   algebra::Vector stiffness;  ///< k_q > 0, force per displacement: the point's share of the boundary included
+  algebra::Vector c;          ///< what prescribed components take off the displacement
+  double offset = 0;          ///< of points where all is prescribed
 };
 
-/// Throws std::logic_error where a spring acts on a prescribed component.
 SpringRows spring_rows(const mesh::Mesh& mesh, const std::vector<FacetSpring>& springs, const Numbering& numbering);
 
 /// ∫ ε(φ):c:ε(u) + springs for every node and component (node × dimension), of

@@ -16,27 +16,42 @@ using algebra::Vector;
 
 namespace {
 
-/// By row the distance |λ − P(λ + ρx)|, ρ as `rho` says of it; of a friction point at its first row, ρ as `rho_of_point` says.
-template <class RowRho, class PointRho>
-Vector distances(const Problem& problem, const Vector& x, const Vector& lambda, const RowRho& rho, const PointRho& rho_of_point) {
+/// g = λ − P(λ + ρx) falls as x rises. The least |g| where x may be off by `rounding`.
+double distance(const Law& law, int k, double lambda, double x, double rho, double rounding) {
+  const auto off = [&](double at) { return lambda - law.project(k, lambda + rho * at, rho).lambda; };
+  if (rounding == 0) return std::abs(off(x));
+  return std::max({0.0, -off(x - rounding), off(x + rounding)});
+}
+
+/// Of a point of friction likewise; slip that may be rounding counts as none.
+double distance(const FrictionGroup& group, int k, const Vector& lambda, const Vector& x, double rho, double rounding) {
+  const int r = group.row(k);
+  const auto own = lambda.segment(r, group.components);
+  const Vector slip = x.segment(r, group.components);
+  const double bound = group.bound(k, lambda), size = slip.norm();
+  const auto off = [&](double part) {
+    const Vector y = own + rho * part * slip;
+    return (own - disc_factor(y.norm(), bound) * y).norm();
+  };
+  return rounding == 0 ? off(1) : std::min(off(1), off(size > rounding ? 1 - rounding / size : 0));
+}
+
+/// By row the distance |λ − P(λ + ρx)|; of a friction point at its first row, with the ρ of its scale_row(). `rho`, `rounding`: functions of a row.
+template <class Rho, class Rounding>
+Vector distances(const Problem& problem, const Vector& x, const Vector& lambda, const Rho& rho, const Rounding& rounding) {
   Vector d = Vector::Zero(lambda.size());
-  for (const RowGroup& group : problem.groups)
-    for (int r = group.first; r < group.first + group.count; ++r)
-      d[r] = std::abs(lambda[r] - group.law->project(r - group.first, lambda[r] + rho(r) * x[r], rho(r)).lambda);
-  for (const FrictionGroup& group : problem.friction)
-    for (int k = 0; k < group.points(); ++k) {
-      const int r = group.row(k);
-      const auto own = lambda.segment(r, group.components);
-      const Vector y = own + rho_of_point(group, k) * x.segment(r, group.components);
-      d[r] = (own - disc_factor(y.norm(), group.bound(k, lambda)) * y).norm();
-    }
+  for (const auto& [law, k, r] : problem.scalar_rows()) d[r] = distance(law, k, lambda[r], x[r], rho(r), rounding(r));
+  for (const auto& [group, k, first, n] : problem.friction_points()) d[first] = distance(group, k, lambda, x, rho(group.scale_row(k)), rounding(first));
   return d;
 }
 
+double none(int) { return 0; }
+
 }  // namespace
 
-Vector distances_from_laws(const Problem& problem, const Vector& x, const Vector& lambda, const Vector& rho) {
-  return distances(problem, x, lambda, [&](int r) { return rho[r]; }, [&](const FrictionGroup& group, int k) { return rho[group.scale_row(k)]; });
+Vector distances_from_laws(const Problem& problem, const Vector& x, const Vector& lambda, const Vector& rho, const Vector& rounding) {
+  const auto of = [](const Vector& v) { return [&v](int r) { return v[r]; }; };
+  return rounding.size() > 0 ? distances(problem, x, lambda, of(rho), of(rounding)) : distances(problem, x, lambda, of(rho), none);
 }
 
 double natural_residual(const Problem& problem, const Vector& x, const Vector& lambda, const Vector& rho) {
@@ -70,16 +85,6 @@ double friction_energy(const Problem& problem, const State& state) {
 
 namespace {
 
-/// Forces of a state, and what the parts are measured by.
-struct Measured {
-  Measured(const Problem& problem, const State& state, Forces all)
-      : forces(std::move(all)), parts(problem::parts(problem)), sizes(problem::sizes(problem, state, forces, parts)) {}
-
-  Forces forces;
-  Parts parts;
-  std::vector<Sizes> sizes;  ///< by part
-};
-
 /// The greatest of all parts' numbers relative to their scales, of those that have one.
 template <class Scale>
 double greatest_ratio(const std::vector<double>& of_part, const Scale& scale) {
@@ -95,19 +100,6 @@ std::vector<double> norms(const Problem& problem, const Parts& parts, const Of& 
   std::vector<double> norm(parts.count, 0);
   for (std::size_t b = 0; b < problem.blocks.size(); ++b) add(norm[parts.of_block[b]], of(problem.blocks[b]));
   return norm;
-}
-
-/// Of each part the greatest excess of a friction force over its bound, relative to the greatest bound; the greatest of all parts.
-double friction_violation(const Problem& problem, const State& state, const Parts& parts) {
-  std::vector<double> excess(parts.count, 0), largest(parts.count, 0);
-  for (const FrictionGroup& group : problem.friction)
-    for (int k = 0; k < group.points(); ++k) {
-      const double bound = group.bound(k, state.lambda);
-      const int part = parts.of_row[group.row(k)];
-      excess[part] = std::max(excess[part], state.lambda.segment(group.row(k), group.components).norm() - bound);
-      largest[part] = std::max(largest[part], bound);
-    }
-  return greatest_ratio(excess, [&](std::size_t p) { return largest[p] > 0 ? largest[p] : 1; });
 }
 
 /// ‖|K||w|‖, w the part of u in the block's kernel.
@@ -128,123 +120,80 @@ double unbalanced(const Block& block, const Vector& force, double gross) {
 
 MotionResidual motion_residual(const Problem& problem, const State& state) {
   constexpr double kRoundings = 4;  // of u itself and of the sums in Ku
-  const Measured m(problem, state, forces(problem, state));
-  const Vector internal = m.forces.internal->get(), load = m.forces.load ? m.forces.load->get() : Vector(Vector::Zero(problem.unknowns())),
+  const Forces all = forces(problem, state);
+  const Measure m(problem, state, all);
+  const Vector internal = all.internal->get(), load = all.load ? all.load->get() : Vector(Vector::Zero(problem.unknowns())),
                external = problem.B.transpose() * state.lambda - load, gross = algebra::SparseRows(problem.B.cwiseAbs()).transpose() * state.lambda.cwiseAbs() + load.cwiseAbs();
-  std::vector<double> beyond(m.sizes.size(), 0);
+  std::vector<double> beyond(static_cast<std::size_t>(m.parts().count), 0);
   MotionResidual result;
   double greatest = 0;
   for (std::size_t b = 0; b < problem.blocks.size(); ++b) {
     const Block& block = problem.blocks[b];
-    const int part = m.parts.of_block[b];
+    const auto part = static_cast<std::size_t>(m.parts().of_block[b]);
     const auto own = [&](const Vector& v) { return v.segment(block.first, block.size()); };
     const Vector force = own(external);
     const double left = (own(internal) + force).stableNorm();
     double granted = 0;
     if (block.kernel.cols() > 0) {
       granted = kRoundings * std::numeric_limits<double>::epsilon() * moved_forces(block, own(state.u.here()));
-      result.resultants = std::max(result.resultants, unbalanced(block, force, std::max(own(gross).sum(), m.sizes[part].least_force)));
+      result.resultants = std::max(result.resultants, unbalanced(block, force, std::max(own(gross).sum(), m.force(part))));
     }
     if (std::min(left, granted) > greatest) greatest = std::min(left, granted), result.most = static_cast<int>(b);
     beyond[part] = std::hypot(beyond[part], std::max(0.0, left - granted));
   }
-  result.beyond = greatest_ratio(beyond, [&](std::size_t p) { return m.sizes[p].force(); });
+  result.beyond = greatest_ratio(beyond, [&](std::size_t p) { return m.force(p); });
   return result;
 }
 
 namespace {
 
-/// A tenth of what the greatest multiplier of each part would move its stiffest row by. Where loads meet their reactions at the contact itself nothing
-/// moves but by rounding: this is the least scale, and a small part of it is as small a part of the forces.
-std::vector<double> yielding(const Problem& problem, const State& state, const Parts& parts) {
-  std::vector<double> force = parts.greatest(state.lambda);
-  const std::vector<double> stiffest = parts.greatest(problem.row_stiffness());
-  for (std::size_t p = 0; p < force.size(); ++p) force[p] *= stiffest[p] > 0 ? 0.1 / stiffest[p] : 0;
-  return force;
-}
-
-/// `Bu`: of the state.
-std::vector<Scales> scales(const Problem& problem, const State& state, const Vector& Bu, const Measured& m) {
-  std::vector<Scales> of_part(m.sizes.size());
-  const std::vector<double> forces = m.parts.greatest(state.lambda), jumps = m.parts.greatest(Bu),
-                            least = yielding(problem, state, m.parts);
-  for (std::size_t p = 0; p < of_part.size(); ++p) {
-    const Sizes& part = m.sizes[p];
-    if (const double force = std::max({forces[p], part.greatest_load, part.least_force}); force > 0) of_part[p].force = force;
-    if (const double length = std::max({jumps[p], part.greatest_displacement, part.least_length, least[p]}); length > 0) of_part[p].length = length;
+/// Sets what Residual says of the laws, but for complementarity.
+void add_laws(const Problem& problem, const State& state, const Vector& x, const Measure& m, Residual& result) {
+  const auto rho = [&](int r) { return m.force_of_row(r) / m.length_of_row(r); };
+  const Vector off = distances(problem, x, state.lambda, rho, none);
+  for (int r = 0; r < problem.rows(); ++r) result.law = std::max(result.law, off[r] / m.force_of_row(r));
+  for (const auto& [law, k, r] : problem.scalar_rows())
+    if (law.unilateral()) result.penetration = std::max(result.penetration, x[r] / m.length_of_row(r));
+  for (const auto& [group, k, first, n] : problem.friction_points()) {
+    const double beyond = state.lambda.segment(first, group.components).norm() - group.bound(k, state.lambda);
+    result.friction = std::max(result.friction, beyond / m.force_of_row(first));
   }
-  std::vector<Scales> of_row;
-  for (const int p : m.parts.of_row) of_row.push_back(of_part[p]);
-  return of_row;
 }
 
-/// Σ|λ x| over the unilateral rows of a part against its work; the greatest of all parts.
-double complementarity(const Problem& problem, const State& state, const Vector& x, const Measured& m) {
-  const Parts& parts = m.parts;
-  const std::vector<double> least = yielding(problem, state, parts);
-  std::vector<double> product(m.sizes.size(), 0), work = product;
-  for (std::size_t p = 0; p < work.size(); ++p) work[p] = m.sizes[p].least_work;
-  for (int r = 0; r < problem.rows(); ++r) work[parts.of_row[r]] += std::abs(state.lambda[r]) * least[parts.of_row[r]];
-  for (const RowGroup& group : problem.groups)
-    for (int r = group.first; group.law->unilateral() && r < group.first + group.count; ++r) {
-      product[parts.of_row[r]] += std::abs(state.lambda[r] * x[r]);
-      work[parts.of_row[r]] += std::abs(state.lambda[r] * problem.c[r]);
-    }
-  const OfParts of(problem, parts);
-  const std::vector<double> internal = of.dot(*m.forces.u, *m.forces.internal),
-                            external = m.forces.load ? of.dot(*m.forces.u, *m.forces.load) : std::vector<double>(work.size(), 0);
-  for (std::size_t p = 0; p < work.size(); ++p) work[p] += std::abs(0.5 * internal[p]) + std::abs(external[p]);
-  const std::vector<double> beside_others = least_beside_others(work, any_loaded(m.sizes));
-  return greatest_ratio(product, [&](std::size_t p) { return m.sizes[p].load > 0 ? work[p] : std::max(work[p], beside_others[p]); });
-}
-
-/// Sets Residual::penetration and law.
-void add_laws(const Problem& problem, const State& state, const Vector& x, const std::vector<Scales>& scale, Residual& result) {
-  for (const RowGroup& group : problem.groups)
-    for (int r = group.first; group.law->unilateral() && r < group.first + group.count; ++r)
-      result.penetration = std::max(result.penetration, x[r] / std::max(scale[r].length, std::abs(problem.c[r])));
-  const auto rho = [&](int r, double gap) { return scale[r].force / std::max(scale[r].length, gap); };
-  const Vector off = distances(
-      problem, x, state.lambda, [&](int r) { return rho(r, std::abs(problem.c[r])); },
-      [&](const FrictionGroup& group, int k) {
-        return rho(group.row(k), problem.c.segment(group.row(k), group.components).lpNorm<Eigen::Infinity>());
-      });
-  for (int r = 0; r < problem.rows(); ++r) result.law = std::max(result.law, off[r] / scale[r].force);
+double complementarity(const Problem& problem, const State& state, const Vector& x, const Measure& m) {
+  std::vector<double> product(static_cast<std::size_t>(m.parts().count), 0);
+  for (const auto& [law, k, r] : problem.scalar_rows())
+    if (law.unilateral()) product[static_cast<std::size_t>(m.parts().of_row[r])] += std::abs(state.lambda[r] * x[r]);
+  return greatest_ratio(product, [&](std::size_t p) { return m.force(p) * m.length(p); });
 }
 
 }  // namespace
 
-std::vector<Scales> scales(const Problem& problem, const State& state) {
-  return scales(problem, state, rows_times(problem, state.u), Measured(problem, state, external_forces(problem, state)));
-}
-
 Residual residual(const Problem& problem, const State& state) {
   Residual result;
-  const Measured m(problem, state, forces(problem, state));
-  const Vector Bu = rows_times(problem, state.u), x = Bu - problem.c;
-  result.energy = energy(problem, m.forces, x);
-  algebra::Field left = *m.forces.internal;
-  left.set_some(m.forces.unknowns, left.some(m.forces.unknowns) + m.forces.contact);
-  if (m.forces.load) left.add(-1, *m.forces.load);
-  result.equilibrium = greatest_ratio(OfParts(problem, m.parts).norm(left), [&](std::size_t p) { return m.sizes[p].force(); });
-  if (problem.rows() == 0) return result;
-  add_laws(problem, state, x, scales(problem, state, Bu, m), result);
+  const Forces all = forces(problem, state);
+  const Measure m(problem, state, all);
+  const Vector x = jumps(problem, state.u);
+  result.energy = energy(problem, all, x);
+  algebra::Field left = *all.internal;
+  left.set_some(all.unknowns, left.some(all.unknowns) + all.contact);
+  if (all.load) left.add(-1, *all.load);
+  result.equilibrium = greatest_ratio(OfParts(problem, m.parts()).norm(left), [&](std::size_t p) { return m.force(p); });
+  add_laws(problem, state, x, m, result);
   result.complementarity = complementarity(problem, state, x, m);
-  result.friction = friction_violation(problem, state, m.parts);
   return result;
 }
 
 double distance_from_laws(const Problem& problem, const State& state) {
   Residual result;
-  if (problem.rows() > 0) add_laws(problem, state, jumps(problem, state.u), scales(problem, state), result);
+  add_laws(problem, state, jumps(problem, state.u), Measure(problem, state), result);
   return result.laws();
 }
 
 double rounding_of_equilibrium(const Problem& problem, const State& state) {
-  const Measured m(problem, state, forces(problem, state));
-  const auto gross = norms(problem, m.parts, [&](const Block& block) { return block.K.gross_times(state.u.here().segment(block.first, block.size())); });
-  return std::numeric_limits<double>::epsilon() *
-         greatest_ratio(gross, [&](std::size_t p) { return m.sizes[p].internal + m.sizes[p].contact + m.sizes[p].load; });
+  const Measure m(problem, state);
+  const auto gross = norms(problem, m.parts(), [&](const Block& block) { return block.K.gross_times(state.u.here().segment(block.first, block.size())); });
+  return std::numeric_limits<double>::epsilon() * greatest_ratio(gross, [&](std::size_t p) { return m.force(p); });
 }
 
 Vector rounding_of_forces(const Problem& problem, const State& state) {
@@ -255,10 +204,10 @@ Vector rounding_of_forces(const Problem& problem, const State& state) {
   for (int r = 0; r < problem.rows(); ++r)
     if (const double square = problem.B.row(r).squaredNorm(); square > 0) rounding[r] /= square;
   const Vector x = jumps(problem, state.u);
-  const std::vector<Scales> scale = scales(problem, state);
+  const Measure m(problem, state);
   for (const RowGroup& group : problem.groups)
     for (int r = group.first; group.law->unilateral() && r < group.first + group.count; ++r)
-      if (-x[r] > 1e-6 * scale[r].length) rounding[r] = 0;
+      if (-x[r] > 1e-6 * m.length_of_row(r)) rounding[r] = 0;
   return rounding;
 }
 

@@ -69,10 +69,10 @@ TEST_CASE("residuals of states that lie elsewhere, of one part and of several, a
     const double expected = 0.5 * u.dot(K * u) - u.dot(p.load()) + 5;
     CHECK(a.energy == doctest::Approx(expected));
     CHECK(a.energy == b.energy);
-    // Each part has its own scale: ‖Ku + Bᵀλ − f‖ over the sum of the norms, the greater of two.
+    // Each part has its own scale: ‖Ku + Bᵀλ − f‖ / ‖f‖, the greater of two.
     const auto of = [&](int first, int size) {
       const Vector internal = (K * u).segment(first, size), contact = (p.B.transpose() * here.lambda).segment(first, size), load = p.load().segment(first, size);
-      return (internal + contact - load).norm() / (internal.norm() + contact.norm() + load.norm());
+      return (internal + contact - load).norm() / load.norm();
     };
     CHECK(a.equilibrium == doctest::Approx(joined ? of(0, 4) : std::max(of(0, 2), of(2, 2))));
   }

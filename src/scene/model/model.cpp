@@ -81,18 +81,12 @@ elasticity::WeakMotions weak_motions_before_refining(const Body& body, const Num
   return elasticity::weak_motions(*before.mesh, before.material, {*body.mesh, numbering, springs}, coarse, stiffness, rigid.modes);
 }
 
-/// The entry of Model::nearly_free; lowers `softest`.
-std::string nearly_free(const Body& body, const Numbering& numbering, const problem::Block& block, double& softest) {
-  const auto weak = body.unrefined ? weak_motions_before_refining(body, numbering, block)
-                                   : elasticity::weak_motions(*body.mesh, body.material, {*body.mesh, numbering, body.facet_springs()}, numbering, [&] { return block.K; }, block.kernel);
-  if (weak.motions.empty()) return "";
-  softest = std::min(softest, weak.stiffness);
-  const std::string motions = listed(texts(weak.motions));
-  if (weak.stiffness == 0)
-    throw InputError(text("'", body.name, "' is as good as free: ", motions, " is held only by ", supports_of(body),
-                          ", whose stiffness is lost in rounding beside the body's; leave that away, or make it stiffer"));
-  return text("nearly free: ", motions, "; held only by ", supports_of(body), ", ", weak.stiffness,
-              " as stiff as the body");
+elasticity::WeakMotions weak_motions(const Model& model, std::size_t b) {
+  const Body& body = model.bodies[b];
+  const problem::Block& block = model.problem.blocks[b];
+  if (body.unrefined) return weak_motions_before_refining(body, model.numbering[b], block);
+  return elasticity::weak_motions(*body.mesh, body.material, {*body.mesh, model.numbering[b], model.springs_in_stiffness(b)}, model.numbering[b],
+                                  [&] { return block.K; }, block.kernel);
 }
 
 }  // namespace
@@ -112,10 +106,14 @@ std::vector<std::string> describe_nearly_free(const Scene& scene, const Model& m
 namespace {
 
 /// f and the offset for the body's prescribed components as they are now.
-void set_load(const Body& body, const Numbering& numbering, problem::Block& block) {
-  auto load = elasticity::load(*body.mesh, body.material, body.facet_springs(), body.force, numbering);
+void set_load(Model& model, std::size_t b) {
+  const Body& body = model.bodies[b];
+  const Numbering& numbering = model.numbering[b];
+  problem::Block& block = model.problem.blocks[b];
+  auto load = elasticity::load(*body.mesh, body.material, model.springs_in_stiffness(b), body.force, numbering);
   block.f = std::move(load.f);
   block.offset = load.offset + broken_energy(body);
+  if (model.springs_are_rows[b]) block.offset += elasticity::spring_rows(*body.mesh, body.facet_springs(), numbering).offset;
   if (!body.unrefined) return;
   const std::vector<double> given = volume_forces(body);
   for (std::size_t k = 0; k < given.size(); ++k) block.offset -= numbering.value(k) * given[k];
@@ -129,15 +127,47 @@ void take_sliced_load(Model& model) {
   problem::take_load_of_slices(model.problem);
 }
 
-algebra::StoredMatrix assemble(const Body& body, const Numbering& numbering) {
+algebra::StoredMatrix assemble(const Model& model, std::size_t b) {
+  const Body& body = model.bodies[b];
   require_memory(2 * elasticity::matrix_bytes(*body.mesh), "the stiffness of '" + body.name + "'");  // and as much while it is made
-  return elasticity::assemble(*body.mesh, body.material, body.facet_springs(), numbering);
+  return elasticity::assemble(*body.mesh, body.material, model.springs_in_stiffness(b), model.numbering[b]);
+}
+
+/// The motions that K of a body does not resist, and what they are.
+void set_kernel(Model& model, std::size_t b) {
+  const Body& body = model.bodies[b];
+  auto rigid = elasticity::rigid_modes(*body.mesh, model.numbering[b], model.springs_in_stiffness(b));
+  model.problem.blocks[b].kernel = std::move(rigid.modes);
+  model.problem.blocks[b].motions = std::move(rigid.motions);
+}
+
+/// Puts springs that alone, and hardly, hold a motion of the body into rows, where `movable`. Sets the body's entry of Model::nearly_free and lowers `softest`.
+void see_weak_motions(Model& model, std::size_t b, bool movable) {
+  const Body& body = model.bodies[b];
+  elasticity::WeakMotions weak = weak_motions(model, b);
+  model.nearly_free.emplace_back();
+  if (weak.motions.empty()) return;
+  const std::string motions = listed(texts(weak.motions)), holds = supports_of(body);
+  model.nearly_free.back() = text("nearly free: ", motions, "; held only by ", holds, ", ", weak.stiffness > 0 ? text(weak.stiffness) : "1e-15 or less", " as stiff as the body");
+  if (movable && !body.springs.empty()) {
+    model.springs_are_rows[b] = 1;
+    model.problem.blocks[b].K = assemble(model, b);
+    set_kernel(model, b);
+    set_load(model, b);
+    weak = weak_motions(model, b);
+  }
+  if (weak.motions.empty()) return;
+  model.softest = std::min(model.softest, weak.stiffness);
+  if (weak.stiffness == 0)
+    throw InputError(text("'", body.name, "' is as good as free: ", motions, " is held only by ", holds,
+                          ", whose stiffness is lost in rounding beside the body's; leave that away, or make it stiffer"));
 }
 
 /// A block that is not assembled yet.
 void add_body(const Body& body, Model& model) {
   model.numbering.push_back(number(body));
   const Numbering& numbering = model.numbering.back();
+  model.springs_are_rows.push_back(0);
   auto rigid = elasticity::rigid_modes(*body.mesh, numbering, body.facet_springs());
   problem::Block block;
   block.name = body.name;
@@ -198,6 +228,10 @@ std::vector<double> spread(const Numbering& numbering, const algebra::Vector& x,
   return rest;
 }
 
+std::vector<elasticity::FacetSpring> Model::springs_in_stiffness(std::size_t body) const {
+  return springs_are_rows[body] ? std::vector<elasticity::FacetSpring>() : bodies[body].facet_springs();
+}
+
 std::vector<double> Model::displacement(int body, const algebra::Vector& u) const {
   return spread(numbering[body], u.segment(problem.blocks[body].first, numbering[body].count()), numbering[body].values());
 }
@@ -235,6 +269,7 @@ void set_rows(const Scene& scene, const Loading& loading, Model& model) {
     model.slide_row.emplace_back();
     add_support_rows(static_cast<int>(b), builder, model);
     const Body& body = model.bodies[b];
+    if (model.springs_are_rows[b]) builder.add(static_cast<int>(b), elasticity::spring_rows(*body.mesh, body.facet_springs(), model.numbering[b]));
     if (body.slides.empty()) continue;
     builder.rows.open_group("slide of '" + body.name + "'", problem::bilateral());
     for (const SlideRow& slide : body.slides) {
@@ -278,13 +313,14 @@ Model build(const Scene& scene, problem::Clock& clock, Monitor& monitor, const L
     problem::Block& block = model.problem.blocks[b];
     if (!in_slices) {
       monitor.phase(text("assembling '", body.name, "' (", body.mesh->cell_count(), " cells)"));
-      block.K = assemble(body, model.numbering[b]);
+      block.K = assemble(model, b);
     }
-    set_load(body, model.numbering[b], block);
+    set_load(model, b);
     if (!body.unrefined) problem::require_kernel(block.K, block.kernel, "'" + block.name + "'", block.motions);
-    model.nearly_free.push_back(nearly_free(body, model.numbering[b], block, model.softest));
+    see_weak_motions(model, b, !in_slices && !decomposition && !body.unrefined);
     monitor.check();
   }
+  if (std::ranges::count(model.springs_are_rows, 1) > 0) set_rows(scene, loading, model);
   take_sliced_load(model);
   require_moderate(model.problem, decomposition.has_value());
   if (decomposition) cut(*decomposition, model, monitor);
@@ -298,7 +334,7 @@ void reload(const Scene& scene, const std::vector<Body>& bodies, const Loading& 
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     model.bodies[b] = loading.applied_to(bodies[b]);
     model.numbering[b] = number(model.bodies[b]);
-    set_load(model.bodies[b], model.numbering[b], model.problem.blocks[b]);
+    set_load(model, b);
   }
   take_sliced_load(model);
   set_rows(scene, loading, model);

@@ -60,12 +60,17 @@ struct Model : SceneRows {
   problem::Problem problem;
   std::vector<Body> bodies;                      ///< as they were: a script may add supports and loads later; scaled
   std::vector<elasticity::Numbering> numbering;  ///< one a body
+  /// Body → are its springs rows? They are where a motion is held by hardly anything else: K then has that motion in its kernel, and what holds the body,
+  /// contact among it, is not lost in rounding beside K.
+  std::vector<char> springs_are_rows;
+  /// The springs that K has.
+  std::vector<elasticity::FacetSpring> springs_in_stiffness(std::size_t body) const;
   std::optional<problem::Decomposition> decomposition;  ///< by which problem.subdomains were cut; none: they were not
 
   /// Body → rigid motions that its supports hardly hold, with what they are and how stiff: "nearly free:
   /// rotation about (0, 0); held only by fix of left (2 nodes), 3e-08 as stiff as the body". Mostly empty.
   std::vector<std::string> nearly_free;
-  double softest = 1;  ///< how stiff the softest of these motions is held, relative to its body
+  double softest = 1;  ///< how stiff K holds the softest of these motions, relative to its body
 
   /// A body's displacement, node × dimension, from the unknowns of all blocks.
   std::vector<double> displacement(int body, const algebra::Vector& u) const;

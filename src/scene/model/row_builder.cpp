@@ -30,6 +30,17 @@ int RowBuilder::add(int body, int other_body, const std::vector<Pull>& pulls, do
   return rows.add(gap, share);
 }
 
+void RowBuilder::add(int body, const elasticity::SpringRows& springs) {
+  const problem::Block& block = model_.problem.blocks[body];
+  rows.open_group("springs of '" + block.name + "'", problem::elastic({springs.stiffness.begin(), springs.stiffness.end()}));
+  for (int r = 0; r < springs.S.rows(); ++r) {
+    std::vector<std::pair<int, double>> entries;
+    for (algebra::SparseRows::InnerIterator it(springs.S, r); it; ++it) entries.emplace_back(block.first + static_cast<int>(it.col()), it.value());
+    places_.push_back({body, block.node[static_cast<std::size_t>(entries.front().first - block.first)]});
+    rows.add(entries, springs.c[r]);
+  }
+}
+
 void RowBuilder::finish() {
   std::vector<std::string> names;
   std::vector<std::shared_ptr<const mesh::Mesh>> meshes;

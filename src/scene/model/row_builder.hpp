@@ -31,6 +31,9 @@ class RowBuilder {
   /// The row direction·Σ weight u.
   int add(int body, const std::vector<contact::NodeWeight>& mean, const mesh::Point& direction, double& gap, double share = 1);
 
+  /// Rows of springs, at the place of the first node that each moves.
+  void add(int body, const elasticity::SpringRows& springs);
+
   /// Sets B, c and the rows' names.
   void finish();
 

@@ -115,7 +115,7 @@ class Lumping {
       if (problem.hides())
         throw InputError("what elastic laws lose by acting at nodes is known of the last step alone where ranks have refined the bodies: ask its error estimate");
       const Body& body = solution.body(static_cast<int>(b));
-      problem.blocks[b].K = elasticity::assemble(*body.mesh, body.material, body.facet_springs(), solution.model().numbering[b]);
+      problem.blocks[b].K = elasticity::assemble(*body.mesh, body.material, solution.model().springs_in_stiffness(b), solution.model().numbering[b]);
     }
     return problem;
   }
@@ -126,6 +126,8 @@ class Lumping {
     const auto& slipping = s_.result().slipping;
     const auto at = [&](int r, bool holds) { spring_[r] = (holds ? kRigid : kLoose) * stiffness[r]; };
     for (int r = 0; r < s_.rows(); ++r) at(r, s_.active(r));
+    for (const auto& [law, k, r] : problem_.scalar_rows())
+      if (const auto own = law.linear_stiffness(k); own && std::isfinite(*own)) spring_[r] = *own;
     for (const problem::FrictionGroup& group : problem_.friction)
       for (int k = 0; k < group.points(); ++k)
         for (int i = 0; i < group.components; ++i) {

@@ -34,12 +34,12 @@ void open_without_force(const problem::Problem& problem, solver::Result& result)
   const Vector x = problem::jumps(problem, result.state.u);
   const Vector none = problem::small_forces(problem, lambda, kOnBound);
   const Vector compliance = problem.row_compliance();
-  const std::vector<problem::Scales> scales = problem::scales(problem, result.state);
+  const problem::Measure measure(problem, result.state);
   for (const problem::RowGroup& group : problem.groups)
     for (int r = group.first; group.law->unilateral() && r < group.first + group.count; ++r) {
-      const problem::Scales& scale = scales[static_cast<std::size_t>(r)];
-      const bool parted = x[r] < -kOnBound * scale.length;
-      if (lambda[r] <= kRounding * scale.force || (parted && (lambda[r] <= none[r] || (lambda[r] <= 10 * kOnBound * scale.force && compliance[r] * lambda[r] <= -problem::kBesideGap * x[r])))) result.active_sets.back()[r] = 0;
+      const double force = measure.force_of_row(r);
+      const bool parted = x[r] < -kOnBound * measure.length_of_row(r);
+      if (lambda[r] <= kRounding * force || (parted && (lambda[r] <= none[r] || (lambda[r] <= 10 * kOnBound * force && compliance[r] * lambda[r] <= -problem::kBesideGap * x[r])))) result.active_sets.back()[r] = 0;
     }
 }
 
@@ -95,7 +95,7 @@ Solution::Solution(std::shared_ptr<const Scene> scene, Model model, const proble
     settle(*scene_, model_, problem, state_before(past_, result_.state.u), result_);
   result_.clock.motions += watch.lap();
   residual_ = solver::judge(problem, result_, model_.softest);
-  if (with_stiffness) rounding_of_forces_ = problem::rounding_of_forces(problem, result_.state), scales_ = problem::scales(problem, result_.state);
+  if (with_stiffness) rounding_of_forces_ = problem::rounding_of_forces(problem, result_.state), measure_.emplace(problem, result_.state);
   take_state(problem);
   for (const std::string& body : describe_nearly_free(*scene_, model_)) result_.reason += "; " + body;
   result_.clock.recover += watch.lap();
@@ -185,9 +185,9 @@ const Vector& Solution::rounding_of_forces() const {
   return *rounding_of_forces_;
 }
 
-const std::vector<problem::Scales>& Solution::scales() const {
-  if (!scales_) scales_ = problem::scales(model_.problem, result_.state);
-  return *scales_;
+const problem::Measure& Solution::measure() const {
+  if (!measure_) measure_.emplace(model_.problem, result_.state);
+  return *measure_;
 }
 
 bool Solution::active(int row) const {

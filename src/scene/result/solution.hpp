@@ -164,7 +164,7 @@ class Solution : public std::enable_shared_from_this<Solution> {
   bool active(int row) const;
   /// See problem::rounding_of_forces(); made on first use.
   const algebra::Vector& rounding_of_forces() const;
-  const std::vector<problem::Scales>& scales() const;  ///< problem::scales() of its state
+  const problem::Measure& measure() const;  ///< of its state
 
  private:
   ErrorEstimate make_error_estimate() const;
@@ -188,7 +188,7 @@ class Solution : public std::enable_shared_from_this<Solution> {
   mutable std::optional<ErrorEstimate> error_estimate_;
   mutable std::optional<double> path_error_;
   mutable std::optional<algebra::Vector> rounding_of_forces_;
-  mutable std::optional<std::vector<problem::Scales>> scales_;
+  mutable std::optional<problem::Measure> measure_;
 };
 
 /// A motion of a whole body: x moves by translation + rotation × (x − about).

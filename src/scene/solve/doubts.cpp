@@ -72,13 +72,13 @@ void see_rounding(const Solution& solution, std::size_t index, std::vector<std::
   double greatest = 0, uncertain = 0;
   std::size_t worst = 0;
   bool bears = false;
-  const std::vector<problem::Scales>& scales = solution.scales();
+  const problem::Measure& all_forces = solution.measure();
   for (std::size_t i = 0; i < contact.rows.size(); ++i) {
     const int row = solution.model().contact_row[index][i];
     if (row < 0) continue;
     const double measure = solution.model().normal[index][i].measure;
     greatest = std::max(greatest, solution.result().state.lambda[row] / measure);
-    bears = bears || solution.result().state.lambda[row] > kNoForce * scales[static_cast<std::size_t>(row)].force;
+    bears = bears || solution.result().state.lambda[row] > kNoForce * all_forces.force_of_row(row);
     if (const double here = solution.rounding_of_forces()[row] / measure; here > uncertain) uncertain = here, worst = i;
   }
   if (bears && uncertain > kMostRounding * greatest)
@@ -122,9 +122,9 @@ std::vector<Acting> may_depend(const Solution& solution) {
       for (const auto& node : nodes(*contact, row)) ++count[node];
   const problem::Problem& problem = solution.model().problem;
   const algebra::Vector x = problem::jumps(problem, solution.result().state.u);
-  const std::vector<problem::Scales>& scales = solution.scales();
+  const problem::Measure& measure = solution.measure();
   // A point of friction without slip may bear less, though it bears all that it can.
-  const auto rests = [&](int r) { return std::abs(x[r]) <= 1e-8 * scales[static_cast<std::size_t>(r)].length; };
+  const auto rests = [&](int r) { return std::abs(x[r]) <= 1e-8 * measure.length_of_row(r); };
   std::vector<Acting> acting;
   for (std::size_t c = 0; c < scene.contacts.size(); ++c) {
     const Contact& contact = *scene.contacts[c];

@@ -1,9 +1,10 @@
 #include "solver/active/linearisation.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
+#include <functional>
 #include <numeric>
+#include <string_view>
 
 namespace dotyk::solver {
 
@@ -84,11 +85,11 @@ std::vector<int> Linearisation::changed(const Linearisation& other) const {
   return rows;
 }
 
-std::uint64_t Linearisation::fingerprint() const {
-  std::uint64_t h = 1469598103934665603ull;  // FNV-1a
-  const auto add = [&h](double number) { h = (h ^ std::bit_cast<std::uint64_t>(number + 0.0)) * 1099511628211ull; };  // −0 is 0
-  for (Eigen::Index r = 0; r < slope.size(); ++r) add(slope[r]), add(slope[r] == 0 ? value[r] : 0);
-  return h;
+std::size_t Linearisation::fingerprint() const {
+  Vector pieces(2 * slope.size());
+  pieces << slope, (slope.array() == 0).select(value, 0.0);
+  pieces.array() += 0.0;  // −0 is 0
+  return std::hash<std::string_view>{}({reinterpret_cast<const char*>(pieces.data()), sizeof(double) * static_cast<std::size_t>(pieces.size())});
 }
 
 int Linearisation::active_count() const { return std::accumulate(active.begin(), active.end(), 0); }

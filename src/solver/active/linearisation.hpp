@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "problem/problem.hpp"
@@ -47,8 +46,8 @@ struct Linearisation {
   bool same_piece(const Linearisation& other, int row) const;
   /// The rows that are not.
   std::vector<int> changed(const Linearisation& other) const;
-  /// Of all rows' pieces.
-  std::uint64_t fingerprint() const;
+  /// A hash of all rows' pieces.
+  std::size_t fingerprint() const;
   int active_count() const;
 };
 

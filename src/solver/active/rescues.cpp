@@ -83,15 +83,18 @@ bool by_active_set(SetIteration& it, const std::string& why) {
   InnerMonitor monitor(it.monitor);
   Result settled = solve(it.problem, method, monitor);
   Result& result = it.result;
-  result.converged = settled.converged;
+  if (!settled.converged) {  // the state that was there is no worse
+    result.reason += text("; ", settled.iterations, " steps of active_set in vain: ", settled.reason);
+    return false;
+  }
+  result.converged = true;
   result.working_set = settled.working_set;
   result.active_sets.push_back(settled.active_sets.back());
   result.clock.factor += settled.clock.factor;
-  result.reason = settled.converged ? text("active set confirmed; before, ", why, ", left by ", settled.iterations, " steps of active_set")
-                                    : text(result.reason, "; ", settled.iterations, " steps of active_set in vain: ", settled.reason);
+  result.reason = text("active set confirmed; before, ", why, ", left by ", settled.iterations, " steps of active_set");
   it.lambda = settled.state.lambda;
   it.settled = std::move(settled.state.u);
-  return settled.converged;
+  return true;
 }
 
 bool by_proximal(SetIteration& it, const std::string& why) {

@@ -84,7 +84,7 @@ class SetIteration {
   int iterations_before_ = 0;                 ///< of the linear solver, where another solve has used it
   std::shared_ptr<HeldStiffness> stiffness_;  ///< of the held form, and of the interior point method
   std::vector<int> changed_;
-  std::set<std::uint64_t> seen_;
+  std::set<std::size_t> seen_;
   Stopwatch watch_;
 };
 

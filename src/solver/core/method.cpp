@@ -40,8 +40,7 @@ std::string too_little_friction(const problem::Problem& problem, const Result& f
 }  // namespace
 
 Result Method::ended(const problem::Problem& problem, Result result, double tol, Monitor& monitor) {
-  constexpr double kMost = 1e4;  // the residuals that a scene measures are no more than so many times the natural residual that tol is about
-  result.asked = kMost * tol;
+  result.asked = tol;
   if (!result.converged && !monitor.stop() && problem.rows() > 0) result.reason += too_little_friction(problem, result) + next_method(problem, result);
   return result;
 }

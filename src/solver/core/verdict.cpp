@@ -51,9 +51,10 @@ void refuse_residuals(const Problem& problem, const Residual& r, Result& result)
   const double equilibrium = honest_equilibrium(problem, r.equilibrium, allowed, result);
   // A penalised state is off its laws by what the method says, and no more.
   double penalty = 0;
-  if (result.penalty)
-    for (const problem::Scales& row : problem::scales(problem, result.state))
-      penalty = std::max(penalty, (1 + asked) * result.penalty->penetration / row.length);
+  if (result.penalty) {
+    const problem::Measure measure(problem, result.state);
+    for (int row = 0; row < problem.rows(); ++row) penalty = std::max(penalty, (1 + asked) * result.penalty->penetration / measure.length_of_row(row));
+  }
   const double laws = result.penalty ? r.law : r.laws();
   if (equilibrium > allowed)
     refuse(text("rounding leaves a residual of ", equilibrium, " in equilibrium", problem.loaded() ? "" : " (no load gives forces a scale: if they should vanish, take pdas, which ends exactly)",

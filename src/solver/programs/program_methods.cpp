@@ -149,13 +149,12 @@ class Recorder final : public Monitor {
 /// all displacements. An interior-point method may end while slack and multiplier of a row are still of one size in the program's units.
 std::vector<char> closed_rows(const Problem& problem, const PrimalProgram& primal, const program::Result& solved, const problem::State& state) {
   std::vector<char> closed(problem.rows(), 1);  // elastic and bilateral rows always act
-  const std::vector<problem::Scales> scales = problem::scales(problem, state);
+  const problem::Measure measure(problem, state);
   const Vector jump = problem::jumps(problem, state.u);
   for (std::size_t k = 0; k < primal.rows().size(); ++k) {
     const int r = primal.rows()[k];
     const bool held = !solved.working.empty() && solved.working[k] != program::Side::free;
-    const problem::Scales& scale = scales[static_cast<std::size_t>(r)];
-    closed[r] = held || std::abs(state.lambda[r]) * scale.length > std::abs(jump[r]) * scale.force;
+    closed[r] = held || std::abs(state.lambda[r]) * measure.length_of_row(r) > std::abs(jump[r]) * measure.force_of_row(r);
   }
   return closed;
 }

@@ -20,83 +20,74 @@ using problem::Problem;
 constexpr double kEps = std::numeric_limits<double>::epsilon();
 constexpr double kSumRoundings = 128;    // k: of the sums in x, and of the solve that made λ
 
-RowScales::RowScales(const problem::Problem& problem, const problem::CondensedProblem& condensed)
-    : condensed_(&condensed), c_(problem.c), stiffness_(stiffness_of_rows(condensed)), parts_(problem::parts(problem)),
-      least_(static_cast<std::size_t>(parts_.count), 0) {
-  for (std::size_t b = 0; b < problem.blocks.size(); ++b) {
-    double& least = least_[parts_.of_block[b]];
-    least = std::max(least, problem.blocks[b].f.lpNorm<Eigen::Infinity>());
-  }
-  std::vector<double> driving = parts_.greatest(stiffness_.cwiseProduct(condensed.x0()));
-  for (std::size_t p = 0; p < least_.size(); ++p)
-    if (least_[p] > 0) driving[p] = least_[p];
-  const bool loaded = *std::max_element(least_.begin(), least_.end()) > 0;
-  const std::vector<double> beside_others = problem::least_beside_others(driving, loaded);
-  const double half = std::sqrt(kEps), of_others = loaded ? 1 : half;
-  for (std::size_t p = 0; p < least_.size(); ++p)
-    least_[p] = least_[p] > 0 ? half * least_[p] : std::max(half * driving[p], of_others * beside_others[p]);
-}
+RowMeasure::RowMeasure(const problem::Problem& problem, const problem::CondensedProblem& condensed)
+    : condensed_(&condensed), c_(problem.c), measure_(problem, stiffness_of_rows(condensed)) {}
 
-Vector RowScales::forces(const Vector& lambda) const {
-  std::vector<double> of_part(least_.size(), 0);
-  for (Eigen::Index r = 0; r < lambda.size(); ++r) of_part[parts_.of_row[r]] += lambda[r] * lambda[r];
-  for (std::size_t p = 0; p < least_.size(); ++p) of_part[p] = std::max(std::sqrt(of_part[p]), least_[p]);
+Vector RowMeasure::forces(const Vector& lambda) const {
+  std::vector<double> of_part = measure_.parts().norm(lambda);
+  for (std::size_t p = 0; p < of_part.size(); ++p) of_part[p] = std::max(std::min(of_part[p], measure_.force(p)), measure_.least_force(p));
   return by_row(of_part);
 }
 
-Vector RowScales::rounding(const Vector& alpha, const Vector& x) const {
+Vector RowMeasure::rounding(const Vector& alpha, const Vector& x) const {
   const Vector moved = alpha.size() > 0 ? Vector(condensed_->N() * alpha) : Vector::Zero(x.size());
-  const auto greatest = [&](const Vector& v) { return by_row(parts_.greatest(v)); };
+  const auto greatest = [&](const Vector& v) { return by_row(measure_.parts().greatest(v)); };
   return kSumRoundings * kEps * (greatest(condensed_->x0()) + greatest(moved) + greatest(condensed_->x0() + moved - x));
 }
 
-Vector RowScales::by_row(const std::vector<double>& of_part) const {
-  return Eigen::Map<const Vector>(of_part.data(), static_cast<Eigen::Index>(of_part.size()))(parts_.of_row);
+Vector RowMeasure::by_row(const std::vector<double>& of_part) const {
+  return Eigen::Map<const Vector>(of_part.data(), static_cast<Eigen::Index>(of_part.size()))(measure_.parts().of_row);
 }
 
-Vector RowScales::rho(const Vector& lambda, const Vector& alpha, const Vector& x, double tol) const {
-  if (x.size() == 0) return x;
+RowMeasure::Rho RowMeasure::rho(const Vector& lambda, const Vector& alpha, const Vector& x) const {
+  if (x.size() == 0) return {x, x};
   // Row by row: where one body goes far, others' gaps are known as before. Nor may Wλ and Nα cancel.
   Vector gross = condensed_->x0().cwiseAbs() + condensed_->W().cwiseAbs() * lambda.cwiseAbs();
   if (alpha.size() > 0) gross += condensed_->N().cwiseAbs() * alpha.cwiseAbs();
-  const Vector F = forces(lambda);
-  const std::vector<double> greatest_force = parts_.greatest(lambda), stiffest = parts_.greatest(stiffness_);
-  std::vector<double> moved = parts_.greatest(x + c_);
+  const problem::Parts& parts = measure_.parts();
+  std::vector<double> force = parts.greatest(lambda);
+  const std::vector<double> stiffest = parts.greatest(stiffness());
+  for (std::size_t p = 0; p < force.size(); ++p) force[p] = std::min(force[p], measure_.force(p));
+  std::vector<double> moved = parts.greatest(x + c_);
   for (std::size_t p = 0; p < moved.size(); ++p)
-    if (stiffest[p] > 0) moved[p] = std::max(moved[p], greatest_force[p] / stiffest[p]);
-  Vector rho = stiffness_;
+    if (stiffest[p] > 0) moved[p] = std::max(moved[p], force[p] / stiffest[p]);
+  Vector rho = stiffness();
   for (Eigen::Index r = 0; r < x.size(); ++r) {
-    const int part = parts_.of_row[r];
-    if (const double length = std::max(moved[part], std::abs(c_[r])); length > 0) rho[r] = std::max(rho[r], greatest_force[part] / length);
-    if (const double rounding = kSumRoundings * kEps * gross[r]; rounding > 0) rho[r] = std::min(rho[r], tol * F[r] / rounding);
+    const int part = parts.of_row[r];
+    if (const double length = std::max(moved[part], std::abs(c_[r])); length > 0) rho[r] = std::max(rho[r], force[part] / length);
   }
-  return rho;
+  return {rho, kSumRoundings * kEps * gross};
 }
 
 RowIteration::RowIteration(const Problem& on, const CondensedProblem& rows, const Settings& settings, double rho,
                            Monitor& monitor)
-    : RowIteration(on, RowScales(on, rows), rows, settings, rho, monitor) {}
+    : RowIteration(on, RowMeasure(on, rows), rows, settings, rho, monitor) {}
 
 RowIteration::RowIteration(const Problem& on, const RowIteration& outer, const Settings& settings, double rho, Monitor& monitor)
-    : RowIteration(on, outer.scales_, outer.condensed, settings, rho, monitor) {}
+    : RowIteration(on, outer.measure_, outer.condensed, settings, rho, monitor) {}
 
-RowIteration::RowIteration(const Problem& on, RowScales scales, const CondensedProblem& rows, const Settings& settings, double rho,
+RowIteration::RowIteration(const Problem& on, RowMeasure measure, const CondensedProblem& rows, const Settings& settings, double rho,
                            Monitor& monitor)
-    : problem(on), condensed(rows), scales_(std::move(scales)), map_(on, rows, rho * scales_.stiffness()), settings_(settings),
+    : problem(on), condensed(rows), measure_(std::move(measure)), map_(on, rows, rho * measure_.stiffness()), settings_(settings),
       monitor_(monitor), allowed_(settings.max_iterations) {
   move_to({Vector::Zero(rows.rows()), Vector::Zero(rows.kernel_size())});
   recorded_ = value_;
   first_ = at_;
 }
 
-double RowIteration::residual() const {
-  const Vector off = problem::distances_from_laws(problem, value_.x, at_.lambda, scales_.rho(at_.lambda, at_.alpha, value_.x, settings_.tol));
+double RowIteration::off_laws(bool beyond_rounding) const {
+  const auto [rho, rounding] = measure_.rho(at_.lambda, at_.alpha, value_.x);
   const Vector force = forces();
-  return std::hypot(off.cwiseQuotient(force).norm(), map_.balancing(value_.unbalanced).cwiseQuotient(force).norm());
+  const Vector off = problem::distances_from_laws(problem, value_.x, at_.lambda, rho, beyond_rounding ? rounding : Vector());
+  const double all = std::hypot(off.cwiseQuotient(force).norm(), map_.balancing(value_.unbalanced).cwiseQuotient(force).norm());
+  return beyond_rounding ? std::max(0.0, all - kSumRoundings * kEps) : all;
 }
 
+double RowIteration::residual() const { return off_laws(true); }
+bool RowIteration::at_rounding() const { return off_laws(false) > settings_.tol; }
+
 Vector RowIteration::forces() const {
-  return scales_.forces(at_.lambda).unaryExpr([](double f) { return f > 0 ? f : 1; });
+  return measure_.forces(at_.lambda).unaryExpr([](double f) { return f > 0 ? f : 1; });
 }
 
 void RowIteration::move_to(Iterate iterate) {
@@ -139,7 +130,7 @@ void RowIteration::grant(int more) {
   allowed_ = result_.iterations + more;
   result_.reason.clear();
   milestone_ = std::numeric_limits<double>::infinity();
-  map_ = NaturalMap(problem, condensed, scales_.stiffness());
+  map_ = NaturalMap(problem, condensed, measure_.stiffness());
   if (best_.lambda.size()) {
     move_to(best_);
     best_residual_ = residual();
@@ -166,7 +157,7 @@ void RowIteration::record_active_set() {
 
 Result RowIteration::finish() {
   if (result_.converged)
-    result_.reason = "the residual fell below tol";
+    result_.reason = accepted_ ? text("the state is off its laws by no more than ", *accepted_) : at_rounding() ? "the residual is no more than rounding" : "the residual fell below tol";
   else if (result_.reason.empty())
     result_.reason = monitor_.stop() ? "interrupted; this is the state so far"
                                      : text("no convergence within ", result_.iterations, " iterations");
@@ -200,27 +191,28 @@ bool astray(const RowIteration& iteration) {
   return !(iteration.rounding().cwiseProduct(rho).maxCoeff() <= kMost * met);
 }
 
-/// Is the state further from its laws than the method means it to be? Then rounding of the condensed problem may be what is left.
-void improve(const Problem& problem, const CondensedProblem& condensed, Result& result) {
-  if (!result.converged || problem.blocks.empty() || problem::distance_from_laws(problem, result.state) <= kRounded) return;
+/// Rounding of the condensed problem may leave the state further from its laws than the method does: more than `allowed`.
+void refine_rounded(const Problem& problem, const CondensedProblem& condensed, double allowed, Result& result) {
+  if (!result.converged || problem.blocks.empty() || problem::distance_from_laws(problem, result.state) <= allowed) return;
   problem::Residual r = problem::residual(problem, result.state);
   if (refine(problem, condensed, result.state, r)) result.reason += "; refined from the displacements";
 }
 
-/// A method's own test may ask for more than rounding leaves: of forces that are small beside the loads, where bodies end up out of each
-/// other's way. What judges any method's state decides then, too.
-void accept(const Problem& problem, Result& result) {
-  constexpr double kRoundings = 100;  // of a product K u
-  if (result.converged || problem.blocks.empty()) return;
-  const problem::Residual r = problem::residual(problem, result.state);
-  const double laws = r.laws();
-  if (!(laws <= kRounded)) return;
-  if (r.equilibrium > std::max(kRounded, kRoundings * problem::rounding_of_equilibrium(problem, result.state))) return;
-  result.converged = true;
-  result.reason = text("the state is off its laws by no more than ", laws, "; ", result.reason);
-}
-
 }  // namespace
+
+/// Forces that are small beside the loads, where bodies end up out of each other's way, are known to rounding of the loads alone.
+bool RowIteration::accept() {
+  constexpr double kRoundings = 100;  // of a product K u
+  if (converged() || problem.blocks.empty() || astray(*this)) return converged();
+  const Iterate best = best_.lambda.size() && !(residual() <= best_residual_) ? best_ : at_;
+  const problem::State state{condensed.recover(best.lambda, best.alpha), best.lambda};
+  const problem::Residual r = problem::residual(problem, state);
+  if (!(r.laws() <= kRounded)) return false;
+  if (r.equilibrium > std::max(kRounded, kRoundings * problem::rounding_of_equilibrium(problem, state))) return false;
+  move_to(best);
+  accepted_ = r.laws();
+  return result_.converged = true;
+}
 
 Result solve(const Problem& problem, const CondensedProblem& condensed, const RowMethod& method, Monitor& monitor) {
   method.require_treatable(problem);
@@ -238,13 +230,13 @@ Result solve(const Problem& problem, const CondensedProblem& condensed, const Ro
       method.iterate(iteration);
     } catch (const Interrupted&) {  // the best of its iterates is kept
     }
+  if (!monitor.stop()) iteration.accept();
   Result result = iteration.finish();
   const Vector alpha = iteration.alpha();
   result.method = method.name();
   result.clock.iterate = watch.lap();
   result.state.u = condensed.recover(result.state.lambda, alpha);
-  improve(problem, condensed, result);
-  if (!monitor.stop() && !astray(iteration)) accept(problem, result);
+  refine_rounded(problem, condensed, std::max(kRounded, method.tol), result);
   result.clock.recover = watch.lap();
   result.factor_bytes = condensed.factor_bytes();
   result.ordering = condensed.ordering();

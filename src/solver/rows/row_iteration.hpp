@@ -1,47 +1,45 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string>
 
 #include "base/stopwatch.hpp"
-#include "problem/parts.hpp"
+#include "problem/measure.hpp"
 #include "solver/rows/natural_map.hpp"
 #include "solver/core/solver.hpp"
 
 namespace dotyk::solver {
 
-/// What counts as a force and as a gap on the rows of a condensed problem, so that one number says of an iterate how far it is
-/// from the laws: ‖λ − P(λ + ρx)‖ / F, with an F of each part of the problem that has nothing to do with others. A greater ρ asks more of gaps, and a row's force is known to tol F only where ρ_r is not
-/// below the stiffness that the row sees, 1/W_rr. Two things bound it:
+/// The Measure of a condensed problem, whose rows are as stiff as W says, so that one number says of an iterate how far it is from the laws:
+/// ‖λ − P(λ + ρx)‖ / F, the least for any x within rounding. F is that of each part's multipliers, but at most Measure::force() and at least
+/// Measure::least_force().
 ///
-/// - below F/X a gap that is great beside the displacements X would hardly count: on soft springs, whose 1/W_rr is far less.
-///   X is that of problem::Residual, by which results are judged, of the rows alone; it is at least what the greatest multiplier moves
-///   the stiffest row by: where loads meet their reactions at the contact itself, nothing moves;
-/// - above tol F / kεG the rounding of x would count as a force beyond tol: x is a sum of terms of the size G, ε a rounding. A
-///   body that moves as a whole far more than it deforms is such a case; no method could end there.
-///
-/// Hence ρ_r = min(max(1/W_rr, F/max(X, |c_r|)), tol F / kεG).
-class RowScales {
+/// A greater ρ asks more of gaps. A row's force is known to tol F only where ρ_r is not below the stiffness that the row sees; a gap that is
+/// great beside the displacements X must count as well. Hence ρ_r = max(1/W_rr, F/max(X, |c_r|)), X at least what F moves the stiffest row by.
+/// x is a sum of terms: of a body that moves as a whole far more than it deforms, rounding of it may be all that is left.
+class RowMeasure {
  public:
-  RowScales(const problem::Problem& problem, const problem::CondensedProblem& condensed);
+  RowMeasure(const problem::Problem& problem, const problem::CondensedProblem& condensed);
 
   /// 1/W_rr; see stiffness_of_rows().
-  const algebra::Vector& stiffness() const { return stiffness_; }
-  /// F by row, that of its part: ‖λ‖, or √ε of the greatest load |f| (where nothing is loaded, of what would hold the rows where they are at
-  /// rest), if that is more: bodies that get out of each other's way end free of forces, and rounding is all that is left of those.
+  const algebra::Vector& stiffness() const { return measure_.stiffness(); }
+  /// F by row, that of its part.
   algebra::Vector forces(const algebra::Vector& lambda) const;
   /// kεG by row, that of its part: what rounding may leave of x, a displacement.
   algebra::Vector rounding(const algebra::Vector& alpha, const algebra::Vector& x) const;
-  /// ρ.
-  algebra::Vector rho(const algebra::Vector& lambda, const algebra::Vector& alpha, const algebra::Vector& x, double tol) const;
+  struct Rho {
+    algebra::Vector rho;
+    algebra::Vector rounding;  ///< by row, of x
+  };
+  Rho rho(const algebra::Vector& lambda, const algebra::Vector& alpha, const algebra::Vector& x) const;
 
  private:
   algebra::Vector by_row(const std::vector<double>& of_part) const;
 
   const problem::CondensedProblem* condensed_;
-  algebra::Vector c_, stiffness_;
-  problem::Parts parts_;
-  std::vector<double> least_;  ///< force of each part
+  algebra::Vector c_;
+  problem::Measure measure_;
 };
 
 /// A method at work on a condensed problem: the iterate (λ, α), what the natural map says there, the
@@ -64,13 +62,15 @@ class RowIteration {
   const NaturalMap::Value& value() const { return value_; }
   /// x = x₀ − Wλ + Nα of the iterate.
   const algebra::Vector& jump() const { return value_.x; }
-  /// Of the iterate: its distance from the laws and the forces out of balance, against the forces that count; see RowScales. It does
-  /// not depend on the map's ρ: a small one would let the force of a slipping point pass in whatever direction.
+  /// Of the iterate: its distance from the laws and the forces out of balance, beyond rounding, against the forces that count; see RowMeasure. It
+  /// does not depend on the map's ρ: a small one would let the force of a slipping point pass in whatever direction.
   double residual() const;
-  /// By row, the force that the iterate's errors are measured by (RowScales::forces()); 1 where it would vanish.
+  /// Is that less than tol for rounding alone?
+  bool at_rounding() const;
+  /// By row, the force that the iterate's errors are measured by (RowMeasure::forces()); 1 where it would vanish.
   algebra::Vector forces() const;
   /// By row, how far rounding may put the iterate's jump off, a displacement.
-  algebra::Vector rounding() const { return scales_.rounding(at_.alpha, value_.x); }
+  algebra::Vector rounding() const { return measure_.rounding(at_.alpha, value_.x); }
   /// ‖λ − P(λ + ρx)‖ of the iterate: F without what is out of balance.
   double law_residual() const { return (at_.lambda - value_.projected).norm(); }
   void move_to(Iterate iterate);
@@ -92,6 +92,8 @@ class RowIteration {
   void grant(int more);
   /// Was the last iterate recorded within tol?
   bool converged() const { return result_.converged; }
+  /// Ends here where the best iterate is a solution to rounding, though tol asks for more: its displacements are recovered and judged as results are.
+  bool accept();
   /// Gives up, for this reason.
   void give_up(std::string reason) { result_.reason = std::move(reason); }
   /// Magnetic screws, where they are now.
@@ -109,11 +111,12 @@ class RowIteration {
   Result finish();
 
  private:
-  RowIteration(const problem::Problem& problem, RowScales scales, const problem::CondensedProblem& condensed, const Settings& settings,
+  RowIteration(const problem::Problem& problem, RowMeasure measure, const problem::CondensedProblem& condensed, const Settings& settings,
                double rho, Monitor& monitor);
   void record_active_set();
+  double off_laws(bool beyond_rounding) const;
 
-  RowScales scales_;
+  RowMeasure measure_;
   NaturalMap map_;
   const Settings& settings_;
   Monitor& monitor_;
@@ -125,6 +128,7 @@ class RowIteration {
   int at_milestone_ = 0;
   NaturalMap::Value value_, recorded_;
   std::vector<std::string> remarks_;
+  std::optional<double> accepted_;  ///< how far off its laws the state is that was accepted
   Stopwatch watch_;
   int allowed_;  ///< iterations
 };

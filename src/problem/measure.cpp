@@ -1,0 +1,86 @@
+#include "problem/measure.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace dotyk::problem {
+
+using algebra::Vector;
+
+namespace {
+
+/// A part without loads has so much of the greatest force of the others: what methods that treat all parts at once leave there by rounding.
+constexpr double kBesideOthers = 1e-4;
+
+const double kHalf = std::sqrt(std::numeric_limits<double>::epsilon());
+
+double positive_or_one(double value) { return value > 0 && std::isfinite(value) ? value : 1; }
+
+/// Of rows that no unknown moves the stiffness is 0.
+Vector local_stiffness(const Problem& problem) {
+  return problem.row_compliance().unaryExpr([](double yields) { return yields > 0 ? 1 / yields : 0.0; });
+}
+
+}  // namespace
+
+Measure::Measure(const Problem& problem, Vector stiffness)
+    : parts_(problem::parts(problem)), stiffness_(stiffness.size() > 0 ? std::move(stiffness) : local_stiffness(problem)),
+      gap_(problem.c.cwiseAbs()), load_(static_cast<std::size_t>(parts_.count), 0), at_rest_(load_) {
+  take_loads(problem);
+  take_rows(problem);
+  count_others();
+  for (std::size_t p = 0; p < load_.size(); ++p) force_.push_back(std::max(driving(p), least_[p]));
+  const std::vector<double> stiffest = parts_.greatest(stiffness_);
+  for (std::size_t p = 0; p < load_.size(); ++p) length_.push_back(stiffest[p] > 0 ? force_[p] / stiffest[p] : 0);
+}
+
+Measure::Measure(const Problem& problem, const State& state, const Forces& forces) : Measure(problem) {
+  const std::vector<double> borne = parts_.norm(state.lambda), stiffest = parts_.greatest(stiffness_),
+                            jump = parts_.greatest(rows_times(problem, state.u)), moved = OfParts(problem, parts_).greatest(*forces.u);
+  for (std::size_t p = 0; p < force_.size(); ++p) {
+    force_[p] = std::max({load_[p], least_[p], std::min(borne[p], at_rest_[p])});
+    if (force_[p] == 0) force_[p] = std::max(borne[p], kHalf * gross_forces(problem, p, state.u));
+    length_[p] = positive_or_one(std::max({stiffest[p] > 0 ? force_[p] / stiffest[p] : 0, jump[p], moved[p]}));
+    force_[p] = positive_or_one(force_[p]);
+  }
+}
+
+double Measure::gross_forces(const Problem& problem, std::size_t part, const Displacement& u) const {
+  double norm = 0;
+  for (std::size_t b = 0; b < problem.blocks.size(); ++b)
+    if (const Block& block = problem.blocks[b]; parts_.of_block[b] == static_cast<int>(part)) add(norm, block.K.gross_times(u.here().segment(block.first, block.size())));
+  return norm;
+}
+
+void Measure::take_loads(const Problem& problem) {
+  if (problem.sliced_load != 0) return void(load_ = OfParts(problem, parts_).norm(whole_load(problem)));
+  for (std::size_t b = 0; b < problem.blocks.size(); ++b) add(load_[static_cast<std::size_t>(parts_.of_block[b])], problem.blocks[b].f);
+}
+
+void Measure::take_rows(const Problem& problem) {
+  Vector at_rest = Vector::Zero(problem.rows());
+  const auto pulled = [&](int r) { return std::isfinite(problem.c[r]) ? -stiffness_[r] * problem.c[r] : -std::numeric_limits<double>::max(); };
+  for (const auto& [law, k, r] : problem.scalar_rows()) at_rest[r] = law.project(k, pulled(r), stiffness_[r]).lambda;
+  for (const auto& [group, k, first, n] : problem.friction_points()) {
+    const double bound = group.law->bound_slope(k) > 0 ? std::numeric_limits<double>::infinity() : group.bound(k, at_rest);
+    Vector y(group.components);
+    for (int i = 0; i < group.components; ++i) y[i] = pulled(first + i);
+    at_rest.segment(first, group.components) = disc_factor(y.norm(), bound) * y;
+  }
+  at_rest_ = parts_.norm(at_rest);
+}
+
+void Measure::count_others() {
+  double greatest = 0;
+  for (std::size_t p = 0; p < load_.size(); ++p) greatest = std::max({greatest, kBesideOthers * load_[p], kHalf * at_rest_[p]});
+  for (std::size_t p = 0; p < load_.size(); ++p) least_.push_back(load_[p] > 0 ? kHalf * at_rest_[p] : greatest);
+}
+
+double Measure::least_force(std::size_t part) const { return std::max(kHalf * load_[part], least_[part]); }
+
+double Measure::length_of_row(int row) const {
+  return std::max(length_[static_cast<std::size_t>(parts_.of_row[row])], std::isfinite(gap_[row]) ? gap_[row] : 0);
+}
+
+}  // namespace dotyk::problem

@@ -1,0 +1,50 @@
+#pragma once
+
+#include "problem/parts.hpp"
+
+namespace dotyk::problem {
+
+/// What counts as a force and as a displacement in a problem, by its loads, gaps, laws and stiffness: results are judged by it, and no result
+/// by its own size. It is a measure of each of the problem's Parts.
+///
+/// Force: F = ‖f‖₂, or ‖λ⁰‖₂ if that is more. λ⁰_r = P(−k_r c_r) is the force that row r takes at rest where what it joins is as stiff as k_r.
+/// It is not zero where bodies overlap, where a displacement is prescribed, where slip is locked in from the step before, and where a law
+/// has a force of its own. Because k_r is local, λ⁰ may be far above all forces of the solution: bodies may get out of each other's way. Of a
+/// state, ‖λ⁰‖ therefore counts as no more than the state's forces, and as no less than √ε of itself.
+///
+/// Displacement: X = F/k of the part's stiffest row, or the greatest |u| and |Bu| of a state if that is more: a slender body yields far more
+/// than k says. Great multipliers do not make X greater. A row with a gap beyond X is measured by its gap.
+///
+/// A part that nothing loads has at least a small part of the forces of the others. Where nothing drives anything, the solution is without forces; those of a
+/// state, or √ε ‖|K||u|‖, are then all that it can be measured by.
+class Measure {
+ public:
+  /// `stiffness`: k by row, in force per displacement; without it that of Problem::row_compliance().
+  explicit Measure(const Problem& problem, algebra::Vector stiffness = {});
+  Measure(const Problem& problem, const State& state, const Forces& forces);
+  Measure(const Problem& problem, const State& state) : Measure(problem, state, external_forces(problem, state)) {}
+
+  const Parts& parts() const { return parts_; }
+  const algebra::Vector& stiffness() const { return stiffness_; }  ///< k by row; 0 where no unknown moves a row
+  double force(std::size_t part) const { return force_[part]; }    ///< F, 1 where nothing gives a measure
+  double length(std::size_t part) const { return length_[part]; }  ///< X, likewise
+  /// A method's forces are measured by their own norm where that is more than this: √ε of what drives the part, or a small part of the others'.
+  double least_force(std::size_t part) const;
+  double force_of_row(int row) const { return force_[static_cast<std::size_t>(parts_.of_row[row])]; }
+  double length_of_row(int row) const;
+
+ private:
+  /// ‖|K||u|‖.
+  double gross_forces(const Problem& problem, std::size_t part, const Displacement& u) const;
+  void take_loads(const Problem& problem);
+  void take_rows(const Problem& problem);
+  void count_others();
+  double driving(std::size_t part) const { return std::max(load_[part], at_rest_[part]); }
+
+  Parts parts_;
+  algebra::Vector stiffness_, gap_;            ///< by row; gap_: |c|, 0 where there is none
+  std::vector<double> load_, at_rest_, least_; ///< by part: ‖f‖, ‖λ⁰‖, and what counts at least where bodies get out of each other's way
+  std::vector<double> force_, length_;         ///< by part
+};
+
+}  // namespace dotyk::problem
