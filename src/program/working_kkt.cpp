@@ -13,7 +13,7 @@ constexpr double kLeastRegularisation = 1e-14;     ///< least regularisation, in
 /// pivots are differences of numbers of size 1/δ, and δ² has to stay well above the rounding unit.
 constexpr double kSafe = 1e-7;
 constexpr std::size_t kBorders = 60;   ///< changes before the next factorisation
-constexpr double kRefined = 1e-13, kConsistent = 1e-8;
+constexpr double kRefined = 1e-13, kBordered = 1e-12, kConsistent = 1e-8;
 
 }  // namespace
 
@@ -103,8 +103,12 @@ WorkingKkt::Solution WorkingKkt::solve(const Vector& f, const Vector& h, const V
   const auto inverse = [&](const Vector& v) { return regularised(v); };
   const auto good = [&](const Refined& r) { return peak(r.residual) <= kConsistent * size && r.z.allFinite(); };
   Refined refined = refine(K, inverse, b, kRefined * size, 10);
-  if (!good(refined) && (!border_.empty() || delta_ < kSafe)) {
-    factor(std::max(kSafe, delta_));  // the border, or a pivot, may have lost digits
+  if (!border_.empty() && peak(refined.residual) > kBordered * size) {
+    factor(least_);  // the border has lost digits
+    refined = refine(K, inverse, b, kRefined * size, 10);
+  }
+  if (!good(refined) && delta_ < kSafe) {
+    factor(std::max(kSafe, delta_));  // a pivot may have, too
     refined = refine(K, inverse, b, kRefined * size, 20);
   }
   Solution out;

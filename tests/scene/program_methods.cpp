@@ -125,7 +125,7 @@ TEST_CASE("active_set finds what pdas finds, on the boundary and on all unknowns
         const auto s = solve(c.scene, active_set(change, reduced));
         REQUIRE_MESSAGE(s->result().converged, s->result().reason);
         CHECK(distance(*s, *exact) < 1e-9);
-        CHECK(s->residual().equilibrium < 1e-10);  // the tolerance of the method
+        CHECK(s->residual().equilibrium < 1e-9);  // the method's tolerance, 1e-10 of its own units, of the load alone
         CHECK(s->result().history.size() > 0);
         REQUIRE(s->result().working_set);
         CHECK(s->result().working_set->survived == s->result().working_set->singular);
