@@ -93,7 +93,7 @@ std::vector<CondensedBlock> condense(const Problem& problem, algebra::Ordering o
     const Block& block = problem.blocks[b];
     if (parts[b].condensation.factor(block.K)) return;
     const int unknown = parts[b].condensation.failed_unknown();
-    throw InputError(text("the stiffness of '", block.name, "' is singular",
+    throw SingularStiffness(text("the stiffness of '", block.name, "' is singular",
                           unknown >= 0 ? text(" (node ", block.node[unknown] + 1, " is not held)") : "",
                           block.kernel.cols() > 0 ? text(" beyond its ", block.kernel.cols(), " rigid motions") : "",
                           ": a material, spring or mesh value is out of range, or cells hang together at single nodes only"));

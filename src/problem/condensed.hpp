@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "algebra/direct/condensation.hpp"
+#include "base/error.hpp"
 #include "base/monitor.hpp"
 #include "problem/rigid_motions.hpp"
 
@@ -31,8 +32,14 @@ struct CondensedBlock {
   void take_load(const algebra::Vector& f) { load = condensation.condense(f); }
 };
 
+/// The stiffness of a block cannot be factored though its kernel is held: to rounding it is singular, as that of very thin bodies is without contact.
+class SingularStiffness : public InputError {
+ public:
+  using InputError::InputError;
+};
+
 /// Orders all blocks, factors them by factor_in_threads() and condenses them, without their loads. Adds its times to `clock`. Throws InputError if a block
-/// is not held.
+/// is not held, SingularStiffness as said there.
 std::vector<CondensedBlock> condense(const Problem& problem, algebra::Ordering ordering, Clock& clock, Monitor& monitor);
 
 /// What condensing takes, as the orderings predict; `bytes` with those of dense_bytes().

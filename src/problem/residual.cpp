@@ -147,24 +147,22 @@ MotionResidual motion_residual(const Problem& problem, const State& state) {
 
 namespace {
 
-/// Sets what Residual says of the laws, but for complementarity.
+/// Sets what Residual says of the laws.
 void add_laws(const Problem& problem, const State& state, const Vector& x, const Measure& m, Residual& result) {
   const auto rho = [&](int r) { return m.force_of_row(r) / m.length_of_row(r); };
   const Vector off = distances(problem, x, state.lambda, rho, none);
   for (int r = 0; r < problem.rows(); ++r) result.law = std::max(result.law, off[r] / m.force_of_row(r));
-  for (const auto& [law, k, r] : problem.scalar_rows())
-    if (law.unilateral()) result.penetration = std::max(result.penetration, x[r] / m.length_of_row(r));
+  std::vector<double> work(static_cast<std::size_t>(m.parts().count), 0);
+  for (const auto& [law, k, r] : problem.scalar_rows()) {
+    if (!law.unilateral()) continue;
+    result.penetration = std::max(result.penetration, x[r] / m.length_of_row(r));
+    work[static_cast<std::size_t>(m.parts().of_row[r])] += std::abs(state.lambda[r] * x[r]);
+  }
+  result.complementarity = greatest_ratio(work, [&](std::size_t p) { return m.force(p) * m.length(p); });
   for (const auto& [group, k, first, n] : problem.friction_points()) {
     const double beyond = state.lambda.segment(first, group.components).norm() - group.bound(k, state.lambda);
     result.friction = std::max(result.friction, beyond / m.force_of_row(first));
   }
-}
-
-double complementarity(const Problem& problem, const State& state, const Vector& x, const Measure& m) {
-  std::vector<double> product(static_cast<std::size_t>(m.parts().count), 0);
-  for (const auto& [law, k, r] : problem.scalar_rows())
-    if (law.unilateral()) product[static_cast<std::size_t>(m.parts().of_row[r])] += std::abs(state.lambda[r] * x[r]);
-  return greatest_ratio(product, [&](std::size_t p) { return m.force(p) * m.length(p); });
 }
 
 }  // namespace
@@ -180,7 +178,6 @@ Residual residual(const Problem& problem, const State& state) {
   if (all.load) left.add(-1, *all.load);
   result.equilibrium = greatest_ratio(OfParts(problem, m.parts()).norm(left), [&](std::size_t p) { return m.force(p); });
   add_laws(problem, state, x, m, result);
-  result.complementarity = complementarity(problem, state, x, m);
   return result;
 }
 

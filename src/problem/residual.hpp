@@ -22,7 +22,7 @@ struct Residual {
 
 Residual residual(const Problem& problem, const State& state);
 
-/// The greatest of Residual::penetration, law and friction, without a pass over K.
+/// Residual::laws() without a pass over K.
 double distance_from_laws(const Problem& problem, const State& state);
 
 /// The size of Residual::equilibrium that rounding alone explains, with one rounding error in each product of K u: ε‖|K||u|‖ / F.

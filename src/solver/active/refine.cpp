@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <optional>
 
+#include "base/text.hpp"
+#include "solver/active/pdas.hpp"
+#include "solver/core/treatable.hpp"
 #include "solver/rows/natural_map.hpp"
 
 namespace dotyk::solver {
@@ -54,6 +57,28 @@ bool refine(const Problem& problem, const CondensedProblem& condensed, State& st
     if (off(at) > 0.1 * before) break;
   }
   return better;
+}
+
+std::optional<Result> on_all_unknowns(const Problem& problem, const Settings& settings, const std::vector<char>& active, double laws, Monitor& monitor) {
+  if (!tells_springs(problem) || problem.hides()) return std::nullopt;
+  Pdas whole;
+  whole.tol = settings.tol, whole.ordering = settings.ordering, whole.reduced = false, whole.start = active;
+  InnerMonitor inner(monitor);
+  Result found = solve(problem, whole, inner);
+  if (!found.converged || !(problem::residual(problem, found.state).laws() < laws)) return std::nullopt;
+  return found;
+}
+
+bool go_on_on_all_unknowns(const Problem& problem, const Settings& settings, Result& result, Monitor& monitor) {
+  const double laws = problem::residual(problem, result.state).laws();
+  std::optional<Result> found = on_all_unknowns(problem, settings, result.active_sets.back(), laws, monitor);
+  if (!found) return false;
+  result.state = std::move(found->state);
+  result.active_sets.push_back(found->active_sets.back());
+  result.slipping = std::move(found->slipping);
+  result.clock.add_solve(found->clock);
+  result.reason += text("; condensed, rounding put the state off its laws by ", laws, ": ", found->iterations, " iterations on all unknowns");
+  return true;
 }
 
 }  // namespace dotyk::solver

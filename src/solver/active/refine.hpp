@@ -1,7 +1,11 @@
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "problem/condensed.hpp"
 #include "problem/residual.hpp"
+#include "solver/core/solver.hpp"
 
 namespace dotyk::solver {
 
@@ -11,5 +15,12 @@ namespace dotyk::solver {
 /// three steps are made, as long as each brings the state nearer to its laws and to equilibrium. `at`: the state's residual, before and
 /// after. True if a step was made.
 bool refine(const problem::Problem& problem, const problem::CondensedProblem& condensed, problem::State& state, problem::Residual& at);
+
+/// Condensing loses the digits that a body without contact cannot tell apart, and no refinement brings them back where it loses all. Then the same is
+/// solved by pdas on all unknowns, where the rows that act hold the body. `active`: rows to begin with. Nothing where pdas cannot treat the laws, or
+/// does not converge nearer to them than `laws`.
+std::optional<Result> on_all_unknowns(const problem::Problem& problem, const Settings& settings, const std::vector<char>& active, double laws, Monitor& monitor);
+/// The same in place of `result`, whose state is off its laws by more than Result::noise. Its reason says so. False where nothing came of it.
+bool go_on_on_all_unknowns(const problem::Problem& problem, const Settings& settings, Result& result, Monitor& monitor);
 
 }  // namespace dotyk::solver

@@ -117,31 +117,14 @@ bool by_proximal(SetIteration& it, const std::string& why) {
   return true;
 }
 
-namespace {
-
-/// Where the condensed problem has lost too many digits: the same on all unknowns. True where that is nearer to the laws than `laws`.
-bool on_all_unknowns(SetIteration& it, double laws) {
-  if (!it.is_condensed()) return false;
-  Pdas whole = it.settings;
-  whole.reduced = false, whole.start = it.result.active_sets.back(), whole.from = nullptr;
-  InnerMonitor monitor(it.monitor);
-  Result found = solve(it.problem, whole, monitor);
-  if (!found.converged || !(problem::residual(it.problem, found.state).laws() < laws)) return false;
-  it.result.state = std::move(found.state);
-  it.result.active_sets.push_back(found.active_sets.back());
-  it.result.reason += text("; condensed, rounding put the state off its laws by ", laws, ": ", found.iterations, " iterations on all unknowns");
-  return true;
-}
-
-}  // namespace
-
 void confirm_laws(SetIteration& it) {
   Result& result = it.result;
   if (problem::distance_from_laws(it.problem, result.state) <= result.noise) return;
   problem::Residual r = problem::residual(it.problem, result.state);
   if (it.is_condensed() && r.laws() > result.noise) refine(it.problem, it.condensed(), result.state, r);
   const double laws = r.laws();
-  if (!(laws > result.noise) || on_all_unknowns(it, laws)) return;
+  if (!(laws > result.noise)) return;
+  if (it.is_condensed() && go_on_on_all_unknowns(it.problem, it.settings, result, it.monitor)) return;
   if (by_proximal(it, text("rounding put the state off its laws by ", laws))) result.state = {*it.settled, it.lambda};
 }
 

@@ -36,6 +36,7 @@ struct Newton : RowMethod {
   /// random, is from a tenth to a hundred times the multipliers with all that touches stuck.
   std::optional<unsigned> seed;
   const char* name() const override { return "newton"; }
+  bool hands_over() const override { return true; }
   void iterate(RowIteration& iteration) const override;
 };
 

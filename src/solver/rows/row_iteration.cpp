@@ -248,13 +248,21 @@ Result solve(const Problem& problem, const RowMethod& method, Monitor& monitor) 
   problem::Clock clock;
   const auto [rigid, note] = require_solvable(problem, clock, monitor);
   problem::Condenser own;
-  const CondensedProblem& condensed =
-      (method.condenser ? *method.condenser : own).condense(problem, rigid, method.ordering, clock, monitor);
-  Result result = solve(problem, condensed, method, monitor);
-  if (!result.converged && !monitor.stop()) require_bearable(problem, condensed, monitor);
+  Result result;
+  try {
+    const CondensedProblem& condensed = (method.condenser ? *method.condenser : own).condense(problem, rigid, method.ordering, clock, monitor);
+    result = solve(problem, condensed, method, monitor);
+    if (!result.converged && !monitor.stop()) require_bearable(problem, condensed, monitor);
+    if (method.hands_over() && result.converged && problem::distance_from_laws(problem, result.state) > result.noise)
+      go_on_on_all_unknowns(problem, method, result, monitor);
+  } catch (const problem::SingularStiffness&) {
+    std::optional<Result> found = method.hands_over() ? on_all_unknowns(problem, method, method.start, std::numeric_limits<double>::infinity(), monitor) : std::nullopt;
+    if (!found) throw;
+    result = std::move(*found);
+    result.reason += "; on all unknowns, since without contact the stiffness is singular to rounding";
+  }
   if (!note.empty()) result.reason += "; " + note;
-  clock.iterate += result.clock.iterate;
-  clock.recover += result.clock.recover;
+  clock.add_solve(result.clock);
   result.clock = clock;
   return result;
 }

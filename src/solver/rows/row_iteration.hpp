@@ -141,6 +141,8 @@ struct RowMethod : Settings {
   /// natural map.
   virtual double map_weight() const { return 1.0; }
   virtual void iterate(RowIteration& iteration) const = 0;
+  /// Do other methods go on where this one cannot?
+  virtual bool hands_over() const { return false; }
   /// Throws InputError where it cannot treat a law, naming the law.
   virtual void require_treatable(const problem::Problem& /*problem*/) const {}
 };
