@@ -4,16 +4,20 @@
 #include <span>
 #include <vector>
 
+#include "base/counted.hpp"
+
 namespace dotyk {
 
-/// Numbers put into buckets 0 … count − 1, those of a bucket in the order in which they came.
+/// Numbers put into buckets 0 … count − 1, those of a bucket in the order in which they came. Throws as counted().
 class Buckets {
  public:
   Buckets() : start_(1, 0) {}
   /// `visit(put)` calls put(bucket, number) for every number. It is called twice: to count, then to fill.
   template <class Visit>
   Buckets(int count, const Visit& visit) : start_(count + 1, 0) {
-    visit([&](int bucket, int) { ++start_[bucket + 1]; });
+    std::size_t all = 0;
+    visit([&](int bucket, int) { ++start_[bucket + 1], ++all; });
+    counted(all);
     std::partial_sum(start_.begin(), start_.end(), start_.begin());
     numbers_.resize(start_.back());
     std::vector<int> next(start_.begin(), start_.end() - 1);

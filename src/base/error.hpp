@@ -1,5 +1,6 @@
 #pragma once
 
+#include <exception>
 #include <stdexcept>
 #include <string>
 
@@ -13,10 +14,10 @@ class InputError : public std::invalid_argument {
   explicit InputError(const std::string& what) : std::invalid_argument(what) {}
 };
 
-/// The user asked to stop (Ctrl-C) where no partial result exists to return.
-class Interrupted : public std::runtime_error {
+/// The user asked to stop (Ctrl-C) where no partial result exists to return. Not caught with the errors of a method.
+class Interrupted : public std::exception {
  public:
-  Interrupted() : std::runtime_error("interrupted") {}
+  const char* what() const noexcept override { return "interrupted"; }
 };
 
 }  // namespace dotyk

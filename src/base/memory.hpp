@@ -17,7 +17,7 @@ namespace dotyk {
 namespace detail {
 
 /// The number that a one-line file of /proc or /sys begins with; infinite where it has none ("max").
-inline double number_in(const char* file) {
+inline double number_in(const std::string& file) {
   std::ifstream in(file);
   double value = 0;
   return in >> value ? value : INFINITY;
@@ -46,20 +46,41 @@ inline void require_address_space(double bytes, const std::string& what) {
     throw InputError(text(what, " needs ", std::ceil(bytes * 1e-6), " MB of memory, and the limit (--memory, ulimit -v) leaves ", std::floor(left * 1e-6), " MB"));
 }
 
+/// The least that `of` says of a control group that this process is in, by its folder.
+template <class Of>
+double least_of_groups(const Of& of) {
+  double least = INFINITY;
+  std::ifstream groups("/proc/self/cgroup");
+  for (std::string line; std::getline(groups, line);) {
+    if (!line.starts_with("0::/")) continue;
+    for (std::string group = line.substr(3); !group.empty(); group.resize(group.rfind('/'))) least = std::min(least, of("/sys/fs/cgroup" + group));
+  }
+  return std::min(least, of("/sys/fs/cgroup"));
+}
+
+/// Bytes that this process may take in all, as they were at the first call, which a program makes when it begins: the machine's memory, what a control group
+/// allows, and what its own limit (--memory, ulimit -v) left then. Whatever else takes memory does not change the answer.
+inline double memory_limit() {
+  static const double limit = [] {
+    const double machine = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+    return std::min({machine, least_of_groups([](const std::string& group) { return detail::number_in(group + "/memory.max"); }), address_space_left()});
+  }();
+  return limit;
+}
+
 /// Bytes this process may still take without swapping: what the machine has available, its control
-/// group leaves and its own limit (ulimit -v) allows. Infinite where none of them is known.
+/// groups leave and its own limit (ulimit -v) allows. Infinite where none of them is known.
 inline double available_memory() {
   double available = INFINITY;
   std::ifstream machine("/proc/meminfo");
   std::string word;
   while (machine >> word)
     if (word == "MemAvailable:" && machine >> available) available *= 1024;
-  const double group = detail::number_in("/sys/fs/cgroup/memory.max");
-  if (std::isfinite(group)) {
-    const double used = detail::number_in("/sys/fs/cgroup/memory.current");
-    if (std::isfinite(used)) available = std::min(available, std::max(0.0, group - used));
-  }
-  return std::min(available, address_space_left());
+  const double groups = least_of_groups([](const std::string& group) {
+    const double most = detail::number_in(group + "/memory.max"), used = detail::number_in(group + "/memory.current");
+    return std::isfinite(used) ? std::max(0.0, most - used) : INFINITY;
+  });
+  return std::min({available, groups, address_space_left()});
 }
 
 /// Are so many bytes available? If not, memory that malloc keeps for later arrays is given back to the system, and the question is asked again.

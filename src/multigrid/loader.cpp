@@ -37,13 +37,17 @@ template <class Function>
 Function* door(const char* name) {
   const LibraryPlace place = look_for(petsc());
   if (place.found.empty())
-    throw InputError("multigrid, and work on several ranks, need PETSc's library: install it (apt-get install --no-install-recommends "
+    throw Unavailable("multigrid, and work on several ranks, need PETSc's library: install it (apt-get install --no-install-recommends "
                      "libpetsc-real-dev; ./dotyk --setup-only does) and build again");
   algebra::reserve_blas_buffer();  // PETSc's aggregates need it: a rank that does not get it would ask for ever, and all others wait
-  const auto function = reinterpret_cast<Function*>(dlsym(open_library(petsc(), place.found), name));
-  if (!function) throw std::runtime_error(petsc().what + " is of another version of dotyk");
-  is_open = true;
-  return function;
+  try {
+    const auto function = reinterpret_cast<Function*>(dlsym(open_library(petsc(), place.found), name));
+    if (!function) throw std::runtime_error(petsc().what + " is of another version of dotyk");
+    is_open = true;
+    return function;
+  } catch (const std::exception& error) {
+    throw Unavailable(error.what());
+  }
 }
 
 }  // namespace
@@ -62,7 +66,7 @@ bool starts() {
   try {
     door<void()>("dotyk_multigrid_start")();
     return true;
-  } catch (const std::exception&) {
+  } catch (const Unavailable&) {
     return false;
   }
 }

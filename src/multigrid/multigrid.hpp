@@ -10,9 +10,15 @@
 #include "algebra/coarse_functions.hpp"
 #include "algebra/spd_solver.hpp"
 #include "algebra/symmetric_matrix.hpp"
+#include "base/error.hpp"
 #include "base/monitor.hpp"
 
 namespace dotyk::multigrid {
+
+/// The library was not built, or cannot be opened.
+struct Unavailable : InputError {
+  using InputError::InputError;
+};
 
 /// What a hierarchy is built from. It is needed only while the hierarchy is built; slices lend it their matrix for longer.
 struct Matrix {
@@ -54,7 +60,7 @@ struct Matrix {
 /// used from several threads, but wait for one another. Tolerances are met by the residual that conjugate gradients carry along, which below some
 /// 1e-13 may be less than that of x.
 ///
-/// Throws InputError where the library was not built, which needs the package libpetsc-real-dev.
+/// Throws Unavailable where the library was not built, which needs the package libpetsc-real-dev, or cannot be opened.
 std::unique_ptr<algebra::SpdSolver> make_solver(const Matrix& matrix, Monitor& monitor);
 
 /// Whether the library was built. It is not opened for this answer.

@@ -29,7 +29,7 @@ Numbering numbered(const Matrix& matrix, int ranks) {
 class PetscSolver final : public algebra::SpdSolver {
  public:
   PetscSolver(const Matrix& matrix, Monitor& monitor)
-      : monitor_(monitor), most_(matrix.most_iterations), geometric_(matrix.coarse), slices_(static_cast<const RankSlices*>(matrix.slices)),
+      : monitor_(monitor), most_(matrix.most_iterations), geometric_(matrix.coarse), slices_(matrix.slices ? &dynamic_cast<const RankSlices&>(*matrix.slices) : nullptr),
         workers_(slices_ ? slices_->workers().next() : workers_for(static_cast<double>(matrix.lower.rows()))),
         numbering_(slices_ ? slices_->numbering() : std::make_shared<const Numbering>(numbered(matrix, workers_.ranks().count()))), sharing_(sharing_unknowns(matrix)) {
     const Ranks& ranks = workers_.ranks();
@@ -50,14 +50,16 @@ class PetscSolver final : public algebra::SpdSolver {
     if (!coarser) return;
     const auto unknowns = static_cast<double>(coarser->diagonal().size());
     *matrix.coarser = std::shared_ptr<const algebra::SlicedMatrix>(coarser);
-    if (!ranks.alone() && !numbering_->hides() && !cycle_->coarser_load() && !several_ranks_have_work(unknowns)) *matrix.coarser = matrix.coarser->lower();
-    else coarser_numbering_ = coarser->numbering();
+    const bool stays = ranks.alone() || numbering_->hides() || cycle_->coarser_load() || several_ranks_have_work(unknowns);
+    if (stays) coarser_numbering_ = coarser->numbering();
+    else try {
+        *matrix.coarser = matrix.coarser->lower();
+      } catch (...) {
+        drop();
+        throw;
+      }
   }
-  ~PetscSolver() override {
-    alone_.lock();
-    workers_.tell(Task::drop);
-    cycle_.reset();
-  }
+  ~PetscSolver() override { drop(); }
 
   bool set(const algebra::Triplets& changed, const std::vector<char>& held) override {
     monitor_.check();
@@ -114,6 +116,11 @@ class PetscSolver final : public algebra::SpdSolver {
   }
 
  private:
+  void drop() {
+    alone_.lock();
+    workers_.tell(Task::drop);
+    cycle_.reset();
+  }
   /// Where the field lies, if that is with this numbering; else null.
   static RankVectors* place_of(const algebra::Field& field, const std::shared_ptr<const Numbering>& numbering) {
     auto* of_ranks = dynamic_cast<RankVectors*>(field.where().get());

@@ -230,6 +230,17 @@ do
   check.that(slow.method ~= "multigrid" and slow.reason:find("no solution of a linear system within the iterations allowed", 1, true), slow.reason)
 end
 
+-- A refusal is said once, and no other method is tried.
+do
+  local b <const> = body("lifted", box({0, 0, 0}, {1, 1, 1}, {20, 20, 20}))
+  b:part"top":load{ 0, 0, 1 }
+  local scene <const> = dotyk.scene{ b }
+  scene:contact{ b:part"bottom", rigid = dotyk.rigid.plane{ point = {0, 0, 0}, normal = {0, 0, 1} } }
+  check.that(scene:plan():find("method: multigrid on all", 1, true), scene:plan())
+  local solved <const>, said <const> = pcall(dotyk.solve, scene)
+  check.that(not solved and select(2, said:gsub("nothing stops", "")) == 1 and not said:find("before", 1, true), said)
+end
+
 -- What a mesh forgets, and what it does not.
 local m <const> = box({0, 0, 0}, {1, 1, 1}, {2, 2, 2})
 local levels <const> = function(mesh)

@@ -85,7 +85,7 @@ TEST_CASE("methods that ask for more than a law's projection say that they canno
 
 TEST_CASE("a law that does not tell its springs is not taken for a rigid one: the default method is one that needs none") {
   Monitor quiet;
-  CHECK(solver::default_method(pressed(4)) == solver::DefaultMethod::newton);
+  CHECK(solver::choose(pressed(4), INFINITY).by == solver::Choice::By::newton);
   const auto by_default = solver::solve(pressed(12), solver::Method(), {}, quiet), by_psor = solver::solve(pressed(12), solver::Psor{}, quiet);
   REQUIRE(by_default.converged);
   CHECK((by_default.state.u.here() - by_psor.state.u.here()).norm() < 1e-8 * by_psor.state.u.here().norm());

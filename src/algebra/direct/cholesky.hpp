@@ -59,6 +59,7 @@ class Cholesky {
 
   double flops() const;              ///< predicted by the ordering
   double bytes() const;              ///< of the factor's numbers
+  static constexpr double kMostBytes = 8 * 2147483647.0;  ///< for as many as CHOLMOD's indices of 32 bits reach, whatever the memory
   const std::string& method() const; ///< of the ordering
 
  private:

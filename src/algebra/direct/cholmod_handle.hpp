@@ -10,6 +10,7 @@
 #include <string>
 
 #include "algebra/types.hpp"
+#include "base/error.hpp"
 
 namespace dotyk::algebra {
 
@@ -38,7 +39,8 @@ class CholmodCommon {
   void check(const char* step) const {
     if (common_.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
     if (common_.status == CHOLMOD_TOO_LARGE)
-      throw std::runtime_error(std::string(step) + ": the factor is too large for 32-bit indices");
+      throw InputError(std::string(step) + ": the factor has more than 2147483647 numbers, the most that CHOLMOD's indices of 32 bits reach: "
+                       "dotyk.solver.multigrid{} needs no factor, or take fewer cells");
     if (common_.status < CHOLMOD_OK)
       throw std::runtime_error(std::string(step) + " failed inside CHOLMOD (status " +
                                std::to_string(common_.status) + ")");

@@ -46,7 +46,7 @@ void Galerkin::fetch_rows(const Ranks& ranks, const LocalRows& P) {
   reached_.starts.assign(1, 0), reached_.columns.clear(), reached_.values.clear();
   for (int i = 0; i < P.count(); ++i) {
     P.for_each(i, [&](int column, double value) { reached_.columns.push_back(column), reached_.values.push_back(value); });
-    reached_.starts.push_back(static_cast<int>(reached_.columns.size()));
+    reached_.starts.push_back(counted(reached_.columns.size()));
   }
   std::vector<std::vector<int>> columns(asked_.size());  // of each row their number, and they
   std::vector<std::vector<double>> values(asked_.size());
@@ -62,7 +62,7 @@ void Galerkin::fetch_rows(const Ranks& ranks, const LocalRows& P) {
     for (auto at = in.begin(); at != in.end();) {
       const int count = *at++;
       reached_.columns.insert(reached_.columns.end(), at, at + count), at += count;
-      reached_.starts.push_back(static_cast<int>(reached_.columns.size()));
+      reached_.starts.push_back(counted(reached_.columns.size()));
     }
   for (const std::vector<double>& in : ranks.exchange(values)) reached_.values.insert(reached_.values.end(), in.begin(), in.end());
 }
@@ -94,7 +94,7 @@ HalfMatrix Galerkin::pattern(const HalfMatrix& fine, Mat interpolation) const {
       own[block - first_own_] = row;
     } else if (!row.empty()) {
       std::vector<int>& to = out[rank_with(firsts_, block)];
-      to.push_back(static_cast<int>(row.size())), to.push_back(block), to.insert(to.end(), row.begin(), row.end());
+      to.push_back(counted(row.size())), to.push_back(block), to.insert(to.end(), row.begin(), row.end());
     }
   }
   if (!fine.ranks().alone())
@@ -217,7 +217,7 @@ void Galerkin::put_block(int block, HalfMatrix& C) {
 
 void Galerkin::append_block(int block, int rank, Outgoing& out) {
   const std::vector<int>& nodes = sum_.rows();
-  out.nodes[rank].push_back(static_cast<int>(nodes.size()));
+  out.nodes[rank].push_back(counted(nodes.size()));
   out.nodes[rank].push_back(block);
   out.nodes[rank].insert(out.nodes[rank].end(), nodes.begin(), nodes.end());
   for (std::size_t k = 0; k < nodes.size(); ++k) out.numbers[rank].insert(out.numbers[rank].end(), sum_.numbers(k), sum_.numbers(k) + size_ * size_);
@@ -245,7 +245,7 @@ std::vector<char> Galerkin::compute(const HalfMatrix& fine, Mat interpolation, H
   const Ranks& ranks = coarse.ranks();
   std::vector<char> due(static_cast<std::size_t>(support_.count()), 0), computed(static_cast<std::size_t>(coarse.rows()), 0);
   for (int b = 0; b < support_.count(); ++b) due[b] = std::ranges::any_of(support_[b], [&](int i) { return changed[i]; });
-  if (!ranks.alone()) MPI_Allreduce(MPI_IN_PLACE, due.data(), static_cast<int>(due.size()), MPI_BYTE, MPI_BOR, ranks.comm());
+  if (!ranks.alone()) MPI_Allreduce(MPI_IN_PLACE, due.data(), counted(due.size()), MPI_BYTE, MPI_BOR, ranks.comm());
   Outgoing out{std::vector<std::vector<int>>(firsts_.size()), std::vector<std::vector<double>>(firsts_.size())};
   const LocalRows own_rows(interpolation);
   const ReachedRows P = reached(*own_rows.own);

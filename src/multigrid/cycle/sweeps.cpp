@@ -81,7 +81,7 @@ void Sweeps::take_border() {
       for (int r = 0; r < n; ++r)
         for (int c = 0; c < n; ++c) border_.values.push_back(static_cast<float>(A_.entry(block, read, r, c) / unit_));
     });
-    border_.starts.push_back(static_cast<int>(border_.columns.size()));
+    border_.starts.push_back(counted(border_.columns.size()));
   }
   border_.values.resize(border_.values.size() + kSpare);
 }

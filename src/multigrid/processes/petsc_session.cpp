@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "multigrid/multigrid.hpp"
 #include "multigrid/start_ranks.hpp"
 
 namespace dotyk::multigrid {
@@ -102,7 +103,8 @@ void initialise(bool spawns) {
   char* words[] = {program, no_files, no_handler, nullptr};
   int count = 3;
   char** arguments = words;
-  if (PetscInitialize(&count, &arguments, nullptr, nullptr) != 0) throw std::runtime_error("PETSc could not be started");
+  PETSC_MPI_THREAD_REQUIRED = MPI_THREAD_SERIALIZED;  // calls come from any thread, one at a time
+  if (PetscInitialize(&count, &arguments, nullptr, nullptr) != 0) throw Unavailable("PETSc could not be started");
   check(PetscPushErrorHandler(note_error, nullptr));
   check(PetscOptionsSetValue(nullptr, "-mat_cholmod_print", "0"));  // what is not definite is told by set()
 }

@@ -8,6 +8,8 @@
 #include <iterator>
 #include <numeric>
 
+#include "base/counted.hpp"
+
 namespace dotyk::multigrid {
 
 Ranks::Ranks(MPI_Comm comm) : comm_(comm) {
@@ -54,6 +56,7 @@ constexpr int kTag = 1, kExchange = 2;
 
 template <class Number>
 void gather_numbers(const Ranks& ranks, const Number* own, const std::vector<int>& counts, Number* all, MPI_Datatype type) {
+  counted(std::accumulate(counts.begin(), counts.end(), std::size_t{0}));  // as the last of these
   std::vector<int> starts;
   std::exclusive_scan(counts.begin(), counts.end(), std::back_inserter(starts), 0);
   MPI_Allgatherv(own, counts[ranks.own()], type, all, counts.data(), starts.data(), type, ranks.comm());
@@ -61,7 +64,7 @@ void gather_numbers(const Ranks& ranks, const Number* own, const std::vector<int
 
 template <class Number>
 std::vector<Number> gather_numbers(const Ranks& ranks, const std::vector<Number>& own, MPI_Datatype type) {
-  const std::vector<int> counts = ranks.gather(static_cast<int>(own.size()));
+  const std::vector<int> counts = ranks.gather(counted(own.size()));
   std::vector<Number> all(std::accumulate(counts.begin(), counts.end(), std::size_t{0}));
   gather_numbers(ranks, own.data(), counts, all.data(), type);
   return all;
@@ -74,14 +77,14 @@ void exchange_numbers(const Ranks& ranks, const std::vector<std::vector<Number>>
   for (int r = 0; r < ranks.count(); ++r)
     if (counts[r] > 0) MPI_Irecv(place(r), counts[r], type, r, kExchange, ranks.comm(), &requests.emplace_back());
   for (int r = 0; r < ranks.count(); ++r)
-    if (!to[r].empty()) MPI_Isend(to[r].data(), static_cast<int>(to[r].size()), type, r, kExchange, ranks.comm(), &requests.emplace_back());
-  MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+    if (!to[r].empty()) MPI_Isend(to[r].data(), counted(to[r].size()), type, r, kExchange, ranks.comm(), &requests.emplace_back());
+  MPI_Waitall(counted(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
 }
 
 template <class Number>
 std::vector<std::vector<Number>> exchange_numbers(const Ranks& ranks, const std::vector<std::vector<Number>>& to, MPI_Datatype type) {
   std::vector<int> sent, counts(to.size(), 0);
-  for (const auto& numbers : to) sent.push_back(static_cast<int>(numbers.size()));
+  for (const auto& numbers : to) sent.push_back(counted(numbers.size()));
   MPI_Alltoall(sent.data(), 1, MPI_INT, counts.data(), 1, MPI_INT, ranks.comm());
   std::vector<std::vector<Number>> from(to.size());
   for (std::size_t r = 0; r < from.size(); ++r) from[r].resize(static_cast<std::size_t>(counts[r]));
@@ -91,7 +94,7 @@ std::vector<std::vector<Number>> exchange_numbers(const Ranks& ranks, const std:
 
 template <class Number>
 void send_numbers(MPI_Comm comm, int to, const std::vector<Number>& numbers, MPI_Datatype type) {
-  MPI_Send(numbers.data(), static_cast<int>(numbers.size()), type, to, kTag, comm);
+  MPI_Send(numbers.data(), counted(numbers.size()), type, to, kTag, comm);
 }
 
 template <class Number>

@@ -9,7 +9,7 @@ namespace {
 std::vector<int> all_starts(const Ranks& ranks, const std::vector<int>& own) {
   std::vector<int> counts, starts{0};
   for (std::size_t i = 1; i < own.size(); ++i) counts.push_back(own[i] - own[i - 1]);
-  for (const int count : ranks.gather(counts)) starts.push_back(starts.back() + count);
+  for (const int count : ranks.gather(counts)) starts.push_back(counted(static_cast<std::size_t>(starts.back()) + count));
   return starts;
 }
 
@@ -27,7 +27,7 @@ void each_below(const HalfRows& own, const auto& put, const auto& ends) {
 
 HalfRows all_rows(const Ranks& ranks, const HalfRows& own) {
   std::vector<int> starts{0}, columns;
-  each_below(own, [&](int column, const std::vector<double>&, int) { columns.push_back(column); }, [&] { starts.push_back(static_cast<int>(columns.size())); });
+  each_below(own, [&](int column, const std::vector<double>&, int) { columns.push_back(column); }, [&] { starts.push_back(counted(columns.size())); });
   HalfRows all;
   all.block = own.block;
   all.starts = all_starts(ranks, starts), all.columns = ranks.gather(columns);

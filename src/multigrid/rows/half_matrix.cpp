@@ -13,7 +13,7 @@ HalfRows::HalfRows(int block, int first, const Rows& nodes) : block(block), firs
       if (local >= 0 && local < i) columns.push_back(local);
       else if (local < 0 || local >= count) others.push_back(nodes.columns[k]);
     }
-    starts.push_back(static_cast<int>(columns.size())), other_starts.push_back(static_cast<int>(others.size()));
+    starts.push_back(counted(columns.size())), other_starts.push_back(counted(others.size()));
   }
   const std::size_t square = static_cast<std::size_t>(block) * block;
   below.assign(columns.size() * square + kSpare, 0.0), diagonal.assign(count * square, 0.0), other.assign(others.size() * square, 0.0);
@@ -85,7 +85,7 @@ HalfMatrix::HalfMatrix(const Ranks& ranks, HalfRows rows)
   const std::vector<int> firsts = ranks.gather(rows_.first);
   std::vector<std::vector<int>> needed(static_cast<std::size_t>(ranks.count()));
   for (const int node : others_) needed[rank_with(firsts, node)].push_back(node);
-  for (const auto& of_rank : needed) other_counts_.push_back(static_cast<int>(of_rank.size()) * block());
+  for (const auto& of_rank : needed) other_counts_.push_back(counted(of_rank.size() * block()));
   asked_ = ranks.exchange(needed);
   for (auto& of_rank : asked_)
     for (int& node : of_rank) node -= rows_.first;
@@ -154,7 +154,7 @@ Rows HalfMatrix::full(const std::vector<int>& rows) const {
         out.columns.push_back(column * n + c);
         out.values.push_back(entry(block, read, r, c));
       }
-    out.starts.push_back(static_cast<int>(out.columns.size()));
+    out.starts.push_back(counted(out.columns.size()));
   }
   return out;
 }

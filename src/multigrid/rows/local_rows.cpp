@@ -41,7 +41,7 @@ void split(Rows& rows, Rows& others, int first, int count) {
       }
     }
     rows.starts[i + 1] = kept;
-    others.starts.push_back(static_cast<int>(others.columns.size()));
+    others.starts.push_back(counted(others.columns.size()));
   }
 }
 

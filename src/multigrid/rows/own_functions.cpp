@@ -14,9 +14,9 @@ Rows OwnFunctions::rows(int dimension) const {
       rows.columns.push_back(means[k] / kComponents * dimension + component[r]);
       rows.values.push_back(1.0 / (end - begin));
     }
-    rows.starts.push_back(static_cast<int>(rows.columns.size()));
+    rows.starts.push_back(counted(rows.columns.size()));
   }
-  sort_entries(rows.starts.data(), 0, static_cast<int>(component.size()), rows.columns.data(), rows.values.data());
+  sort_entries(rows.starts.data(), 0, counted(component.size()), rows.columns.data(), rows.values.data());
   return rows;
 }
 
@@ -25,7 +25,7 @@ AllOwnFunctions without_first(const AllOwnFunctions& functions) {
 }
 
 void send(const Ranks& ranks, int to, const AllOwnFunctions& functions) {
-  ranks.send(to, std::vector<int>{static_cast<int>(functions->size())});
+  ranks.send(to, std::vector<int>{counted(functions->size())});
   for (const OwnFunctions& own : *functions) ranks.send(to, own.component), ranks.send(to, own.starts), ranks.send(to, own.means);
 }
 

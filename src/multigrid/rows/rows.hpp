@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/counted.hpp"
+
 namespace dotyk::multigrid {
 
 /// Rows of a sparse matrix, columns ascending in each.
@@ -16,7 +18,7 @@ struct Rows {
   void append_columns(std::vector<int>& row) {
     std::ranges::sort(row);
     columns.insert(columns.end(), row.begin(), std::ranges::unique(row).begin());
-    starts.push_back(static_cast<int>(columns.size()));
+    starts.push_back(counted(columns.size()));
     row.clear();
   }
 };

@@ -26,7 +26,7 @@ OwnFunctions own_functions(const algebra::CoarseFunctions& functions, const Numb
         for (int k = 0; k < d; ++k) bits |= (functions.column[d * p + k] >= 0) << k;
         own.means.push_back(coarse_number[d * p] / d * OwnFunctions::kComponents + bits);
       }
-    own.starts.push_back(static_cast<int>(own.means.size()));
+    own.starts.push_back(counted(own.means.size()));
   }
   return own;
 }

@@ -5,7 +5,7 @@
 namespace dotyk::multigrid {
 
 void send(const Ranks& ranks, int to, const Lists& lists) {
-  ranks.send(to, std::vector<int>{static_cast<int>(lists.whole.size()), static_cast<int>(lists.real.size())});
+  ranks.send(to, std::vector<int>{counted(lists.whole.size()), counted(lists.real.size())});
   for (const auto& list : lists.whole) ranks.send(to, list);
   for (const auto& list : lists.real) ranks.send(to, list);
 }

@@ -19,7 +19,7 @@ namespace {
 /// edge(a, b) as often as the edge weighs.
 template <class Visit>
 std::vector<int> share_out(std::vector<idx_t> weight, int parts, const Visit& visit) {
-  const auto vertices = static_cast<int>(weight.size());
+  const auto vertices = counted(weight.size());
   const Buckets met(vertices, [&](auto&& put) {
     visit([&](int a, int b) {
       if (a != b) put(a, b), put(b, a);
@@ -33,7 +33,7 @@ std::vector<int> share_out(std::vector<idx_t> weight, int parts, const Visit& vi
       if (k == 0 || own[k] != own[k - 1]) neighbours.push_back(own[k]), weights.push_back(0);
       ++weights.back();
     }
-    starts.push_back(static_cast<idx_t>(neighbours.size()));
+    starts.push_back(counted(neighbours.size()));
   }
   idx_t count = vertices, constraints = 1, wanted = parts, cut = 0, options[METIS_NOPTIONS];
   METIS_SetDefaultOptions(options);
@@ -193,7 +193,7 @@ Numbering::Numbering(const Coupling& coupling, int ranks) {
     for (int k = 0; k < used; ++k) slot_.push_back(begin + k);
     for (int k = used; k < block_; ++k) idle_.push_back(begin + k);
   }
-  for (int& f : first_[0]) f *= block_;
+  for (int& f : first_[0]) f = counted(std::size_t(f) * block_);
   take_unknowns();
   for (std::size_t l = 1; l <= coupling.coarse.size(); ++l) {
     const std::vector<int> number = numbers_by_rank(sharing.of(static_cast<int>(l)), ranks, first_.emplace_back());
@@ -201,7 +201,7 @@ Numbering::Numbering(const Coupling& coupling, int ranks) {
     const int dimension = coupling.coarse[l - 1].dimension;
     for (const int n : number)
       for (int k = 0; k < dimension; ++k) rows.push_back(n * dimension + k);
-    for (int& f : first_[l]) f *= dimension;
+    for (int& f : first_[l]) f = counted(std::size_t(f) * dimension);
   }
 }
 
@@ -216,7 +216,7 @@ Numbering::Numbering(const std::vector<std::vector<int>>& first, const std::vect
     : block_(functions.dimension), refinement_(std::move(refinement)) {
   for (std::size_t l = 0; l < number.size(); ++l) {
     std::vector<int> rows, &begin = first_.emplace_back(first[l]);
-    for (int& f : begin) f *= block_;
+    for (int& f : begin) f = counted(std::size_t(f) * block_);
     for (const int node : number[l])
       for (int k = 0; k < block_; ++k) rows.push_back(node * block_ + k);
     if (l > 0) functions_.push_back(std::move(rows));

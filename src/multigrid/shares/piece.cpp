@@ -49,7 +49,7 @@ Rows some_rows(const algebra::SparseRows& from, const std::vector<int>& number, 
         rows.values.push_back(it.value());
       }
     else rows.columns.push_back(range.first + r), rows.values.push_back(1.0);
-    rows.starts.push_back(static_cast<int>(rows.columns.size()));
+    rows.starts.push_back(counted(rows.columns.size()));
   }
   sort_entries(rows.starts.data(), 0, range.count(), rows.columns.data(), rows.values.data());
   return rows;

@@ -35,7 +35,7 @@ class Questions {
   explicit Questions(const Ranks& ranks) : ranks_(ranks), asked_(static_cast<std::size_t>(ranks.count())), places_(asked_) {}
 
   void ask(int rank, std::span<const int> means, std::size_t place) {
-    asked_[rank].push_back(static_cast<int>(means.size()));
+    asked_[rank].push_back(counted(means.size()));
     asked_[rank].insert(asked_[rank].end(), means.begin(), means.end());
     places_[rank].push_back(static_cast<int>(place));
   }
@@ -129,6 +129,7 @@ std::vector<int> own_in_order(const Rows& means, const std::vector<char>& own) {
 /// The first of each rank, and the number of all, from the number of own ones. Collective.
 std::vector<int> firsts(const Ranks& ranks, int own) {
   std::vector<int> first = ranks.gather(own);
+  counted(std::accumulate(first.begin(), first.end(), std::size_t{0}));
   first.insert(first.begin(), 0);
   std::partial_sum(first.begin(), first.end(), first.begin());
   return first;
@@ -156,7 +157,7 @@ std::vector<int> RefinedShare::refine(const Rows& asked) {
     const auto of_node = columns_of(means, static_cast<std::size_t>(in_order[k]));
     number[in_order[k]] = finer[ranks_.own()] + static_cast<int>(k);
     own_means.columns.insert(own_means.columns.end(), of_node.begin(), of_node.end());
-    own_means.starts.push_back(static_cast<int>(own_means.columns.size()));
+    own_means.starts.push_back(counted(own_means.columns.size()));
   }
   for (std::size_t k = 0; k < before.size(); ++k) {
     const auto i = static_cast<std::size_t>(before[k]);

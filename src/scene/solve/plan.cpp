@@ -4,6 +4,7 @@
 #include "algebra/direct/stop_factoring.hpp"
 #include "base/error.hpp"
 #include "base/listed.hpp"
+#include "base/memory.hpp"
 #include "base/text.hpp"
 #include "elasticity/rigid_modes.hpp"
 #include "problem/uniqueness.hpp"
@@ -42,43 +43,36 @@ std::string describe_contact(const Contact& contact) {
 }
 
 /// Work and memory of condensed rows where they are worth a word. Kernels reach some 20 Gflop/s a core.
-std::string expected(const problem::Problem& problem) {
+std::string condensing(const problem::Problem& problem, const solver::Choice& choice) {
   constexpr double kLeast = 2e9, kRate = 2e10, kMuch = 0.5;
-  const solver::DefaultMethod chosen = solver::default_method(problem);
-  if (chosen != solver::DefaultMethod::pdas && chosen != solver::DefaultMethod::newton) return "";
-  const solver::NearRows near(problem, {});
-  const problem::CondensingWork work = problem::work_of_condensing(near.all() ? problem : near.restricted());
+  if (!choice.factors_fit) return "";
+  const std::optional<solver::NearRows> near = choice.near.empty() ? std::nullopt : std::optional<solver::NearRows>({problem, choice.near, {}});
+  const problem::CondensingWork work = problem::work_of_condensing(near ? near->restricted() : problem);
   if (work.flops < kLeast) return "";
-  std::string out = text("; ", near.all() ? "" : text("first on the ", near.count(), " rows that overlap, "), "some ", std::ceil(work.flops * 1e-9), " Gflop, ",
+  std::string out = text("; ", near ? text("first on the ", near->count(), " rows that overlap, ") : "", "some ", std::ceil(work.flops * 1e-9), " Gflop, ",
                          std::ceil(work.flops / kRate), " s on a core, and ", std::ceil(work.bytes * 1e-6), " MB");
-  if (problem::dense_bytes(near.count()) > kMuch * work.bytes) out += "; warning: most of it is the dense matrices of the rows; feti forms none";
+  if (problem::dense_bytes(near ? near->count() : problem.rows()) > kMuch * work.bytes)
+    out += "; warning: most of it is the dense matrices of the rows; feti forms none";
   return out;
 }
 
-/// Rounded up to a tenth.
-double tenths(double seconds) { return std::ceil(10 * seconds) / 10; }
-
-std::string cost(const solver::Expected::Cost& of) { return text(tenths(of.seconds), " s on a core and ", std::ceil(of.bytes * 1e-6), " MB"); }
-
 /// The method that solves it where none is named, and why.
-std::string method(const problem::Problem& problem, bool any_free) {
-  if (const solver::TurnedNodes nodes(problem); !nodes.none())
-    return method(nodes.turned(), any_free) + text("; ", problem.rows() - nodes.count(), " rows of oblique slides are none, since their nodes' frames are turned");
-  const std::string instead = solver::multigrid_is_possible(problem) ? "; multigrid would take some " + cost(solver::expected(problem).multigrid) : "";
-  const std::string factored = text(" (", problem.unknowns(), " unknowns factored once", expected(problem), instead, ")");
-  switch (solver::default_method(problem)) {
-    case solver::DefaultMethod::linear: return text("one linear solve of ", problem.unknowns(), " unknowns");
-    case solver::DefaultMethod::newton: return "newton on the condensed rows of contact and friction" + factored;
-    case solver::DefaultMethod::held:
-      return text("pdas on all ", problem.unknowns(), " unknowns, one sparse factorisation an iteration (reduced = false): its ", problem.rows(),
-                  " rows need not be condensed, or are too many");
-    case solver::DefaultMethod::multigrid: {
-      const solver::Expected e = solver::expected(problem);
-      return text("multigrid on all ", problem.unknowns(), " unknowns: some ", cost(e.multigrid), ", where factors would take some ", cost(e.factors));
-    }
-    case solver::DefaultMethod::pdas: break;
+std::string method(const problem::Problem& problem, const solver::Choice& choice, bool any_free) {
+  using By = solver::Choice::By;
+  if (choice.turned) {
+    const solver::TurnedNodes nodes(problem);
+    const problem::Problem turned = nodes.turned();
+    return method(turned, solver::by_factors(turned), any_free) + choice.costs +
+           text("; ", problem.rows() - nodes.count(), " rows of oblique slides are none, since their nodes' frames are turned");
   }
-  return text("pdas on ", problem.rows(), " condensed rows", factored, ": finite and exact for frictionless contact",
+  const auto factored = [&] { return text(" (", problem.unknowns(), " unknowns factored once", condensing(problem, choice), choice.costs, ")"); };
+  if (choice.by == By::linear) return text("one linear solve of ", problem.unknowns(), " unknowns");
+  if (choice.by == By::multigrid) return text("multigrid on all ", problem.unknowns(), " unknowns", choice.costs);
+  if (choice.by == By::newton) return "newton on the condensed rows of contact and friction" + factored();
+  if (choice.by == By::held)
+    return text("pdas on all ", problem.unknowns(), " unknowns, one sparse factorisation an iteration (reduced = false): its ", problem.rows(),
+                " rows need not be condensed, or are too many");
+  return text("pdas on ", problem.rows(), " condensed rows", factored(), ": finite and exact for frictionless contact",
               any_free ? "; rigid motions exactly, as constraints of the dual (to compare: magnetic screws, pdas{ kernel = \"screws\" })" : "");
 }
 
@@ -138,7 +132,7 @@ std::string method_and_verdict(const Scene& scene, bool any_free) {
   const bool by_ranks = scene.bodies.front()->unrefined != nullptr;
   try {
     const Model model = build(scene, clock, quiet, {}, {}, [&](const problem::Problem&) { return by_ranks; });
-    how = by_ranks ? text("multigrid on all ", model.problem.all_unknowns(), " unknowns, by the ranks that refine the bodies") : method(model.problem, any_free);
+    how = by_ranks ? text("multigrid on all ", model.problem.all_unknowns(), " unknowns, by the ranks that refine the bodies") : method(model.problem, solver::choose(model.problem, memory_limit()), any_free);
     return out + how + "\n  " + verdict(scene, model);
   } catch (const InputError& error) {
     return out + (by_ranks ? "none on several ranks: " : how + "\n  no solution: ") + error.what();

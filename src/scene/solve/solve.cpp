@@ -4,6 +4,7 @@
 
 #include "algebra/direct/stop_factoring.hpp"
 #include "base/error.hpp"
+#include "base/memory.hpp"
 #include "base/stopwatch.hpp"
 #include "base/text.hpp"
 #include "scene/result/solution.hpp"
@@ -186,14 +187,18 @@ class History {
   void load(const Step& step, Monitor& monitor) {
     loading_.take(step, *scene_);
     if (!built_) model_ = build(*scene_, clock_, monitor, loading_, method_.decomposition(), [&](const problem::Problem& p) {
-        const bool held = std::ranges::all_of(p.blocks, [](const problem::Block& b) { return b.kernel.cols() == 0; });  // else the default method is chosen by K
-        return method_ ? method_.takes_slices() : held && !condenser_ && solver::default_method(p) == solver::DefaultMethod::multigrid;
+        const bool held = std::ranges::all_of(p.blocks, [](const problem::Block& b) { return b.kernel.cols() == 0; });  // else K is needed to choose
+        if (!method_ && held) choose(p);
+        return method_ ? method_.takes_slices() : held && choice_->by == solver::Choice::By::multigrid;
       });
+    if (!method_ && !choice_) choose(model_.problem);
     if (built_ || (last_ && breaks_)) reload(*scene_, bodies_, loading_, model_, clock_);
     built_ = true;
     if (last_ && last_ == start_.after) require_same_rows(model_, last_->model());
     add_slip();
   }
+
+  void choose(const problem::Problem& problem) { choice_ = solver::choose(problem, memory_limit(), condenser_.get()); }
 
   /// Friction opposes the increment of slip.
   void add_slip() {
@@ -227,7 +232,8 @@ class History {
   }
 
   solver::Result iterate(Monitor& monitor) const {
-    return solver::solve(model_.problem, method_, {flags(), condenser_, state()}, monitor);
+    solver::Beginning from{flags(), condenser_, state()};
+    return method_ ? solver::solve(model_.problem, method_, std::move(from), monitor) : solver::solve_chosen(model_.problem, *choice_, std::move(from), monitor);
   }
 
   bool begins() const { return !last_ || last_ == start_.after; }
@@ -269,6 +275,7 @@ class History {
   std::vector<Body> bodies_;  ///< as the script gave them, unscaled
   Loading loading_;
   Model model_;
+  std::optional<solver::Choice> choice_;  ///< where no method is named: for all steps
   bool built_ = false;
   bool breaks_ = false;
   problem::Clock clock_;

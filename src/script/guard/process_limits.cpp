@@ -69,6 +69,7 @@ void set_limits(const ProcessLimits& limits) {
     mallopt(M_ARENA_MAX, 1);  // each thread's arena would take 64 MB of address space
     mallopt(M_MMAP_THRESHOLD, 1 << 22), mallopt(M_TRIM_THRESHOLD, 1 << 22);  // a freed array gives its address space back
   }
+  memory_limit();  // as it is now
   if (!limits.seconds) return;
   std::signal(SIGXCPU, time_is_up);
   limit(RLIMIT_CPU, std::ceil(*limits.seconds));

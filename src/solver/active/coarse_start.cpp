@@ -19,11 +19,6 @@ constexpr int kSmall = 5000;
 /// Of a coarser solution: its contact forces are off by about as much because the mesh is coarse.
 constexpr double kTolerance = 0.1;
 
-class CoarseRows : public RowSubset {
- public:
-  CoarseRows(const Problem& problem, std::vector<char> kept) : RowSubset(problem) { take(std::move(kept)); }
-};
-
 }  // namespace
 
 CoarseStart coarse_start(const Problem& problem, const Pdas& settings, Monitor& monitor) {
@@ -40,7 +35,7 @@ CoarseStart coarse_start(const Problem& problem, const Pdas& settings, Monitor& 
   start.ordering = watch.lap();
   monitor.phase("solving on coarser meshes");
   problem::Coarser coarse = problem::coarser(problem, std::move(stiffness));
-  const CoarseRows rows(coarse.problem, coarse.kept);
+  const RowSubset rows(coarse.problem, coarse.kept);
   if (rows.count() == 0) return start;
   const Problem part = rows.restricted();
   Result result;
@@ -53,12 +48,10 @@ CoarseStart coarse_start(const Problem& problem, const Pdas& settings, Monitor& 
     begun.tol = std::max(begun.tol, kTolerance);
     meshes = before.meshes + 1;
     const bool small = part.unknowns() <= kSmall && !part.hides();
-    result = small ? solve(part, {}, {}, inner) : solve(part, begun, inner);
-  } catch (const Interrupted&) {
-    throw;
+    result = small ? solve_chosen(part, by_factors(part), {}, inner) : solve(part, begun, inner);
   } catch (const SlowIterations&) {
     throw;  // on the finer mesh they would not be faster
-  } catch (const std::exception&) {  // said of the mesh that is given, where it is so there, too
+  } catch (const InputError&) {  // said of the mesh that is given, where it is so there, too
   }
   monitor.check();
   if (!result.converged) return start;

@@ -35,7 +35,7 @@ struct MakeSpdSolver {
   explicit operator bool() const { return bool(make); }
 };
 
-/// A linear problem of an iteration was not solved.
+/// A linear problem of an iteration was not solved, or the library that should do it cannot be opened.
 struct NotSolved : InputError {
   using InputError::InputError;
 };
@@ -52,7 +52,7 @@ MakeSpdSolver incomplete_factor();
 /// What the levels of multigrid are made of: coarser meshes, where they are known, or aggregates of unknowns alone.
 enum class Levels { meshes, aggregates };
 /// Conjugate gradients with multigrid, which give up when their rate of convergence foretells more than `most_iterations`. Making the solver throws
-/// InputError where its library was not built.
+/// NotSolved where its library cannot be opened.
 MakeSpdSolver multigrid(Levels levels, double most_iterations = std::numeric_limits<double>::infinity());
 
 /// A = Tᵀ(K + Σ_r s_r B_rᵀB_r)T in the basis T where rows are unknowns, with the rows and columns of held unknowns emptied but for their diagonal:

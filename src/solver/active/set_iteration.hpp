@@ -24,6 +24,7 @@ class SetIteration {
   /// On all unknowns from the settings' state `from`, where there is one; else from the rows that `start` names, else from those that touch at rest.
   /// Throws InputError where a body is not held, naming its motion.
   SetIteration(const problem::Problem& problem, const Pdas& settings, Monitor& monitor);
+  SetIteration(const SetIteration&) = delete;  // `rigid` is its own
 
   /// At most so many steps; fewer where they crawl after more than `patience`.
   End iterate(int most, int patience);

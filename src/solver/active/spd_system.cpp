@@ -105,9 +105,13 @@ MakeSpdSolver multigrid(Levels levels, double most_iterations) {
     if (!coarse.empty()) matrix.coarse = &coarse, matrix.coarser = s.coarser;
     const SparseMatrix unknowns = of_signs ? SparseMatrix() : s.basis.of_displacements(s.problem);
     if (!of_signs) matrix.unknowns = &unknowns, matrix.displaced = s.slices ? nullptr : &K;
-    auto solver = multigrid::make_solver(matrix, s.monitor);
-    if (!other_signs) return solver;
-    return std::make_unique<SignedSolver>(s.basis.signs, s.near_rows, std::move(solver));
+    try {
+      auto solver = multigrid::make_solver(matrix, s.monitor);
+      if (!other_signs) return solver;
+      return std::make_unique<SignedSolver>(s.basis.signs, s.near_rows, std::move(solver));
+    } catch (const multigrid::Unavailable& error) {
+      throw NotSolved(error.what());
+    }
   };
   return {make, levels == Levels::meshes};  // aggregates of a mesh that has coarser ones: nested iteration wants the whole
 }

@@ -36,16 +36,18 @@ void add_friction(const Problem& problem, std::vector<char>& near) {
 
 }  // namespace
 
-NearRows::NearRows(const Problem& problem, const std::vector<char>& start) : RowSubset(problem) {
+std::vector<char> rows_that_may_close(const Problem& problem) {
+  const auto over = problem.rows() >= kFewRows ? overlap(problem) : std::nullopt;
+  if (!over) return {};
   std::vector<char> near(problem.rows(), 1);
-  if (const auto over = problem.rows() >= kFewRows ? overlap(problem) : std::nullopt) {
-    for (const RowGroup& group : problem.groups)
-      for (int r = group.first; r < group.first + group.count; ++r)
-        near[r] = !group.law->unilateral() || (*over)[r] >= 0 || (!start.empty() && start[r]);
-    add_friction(problem, near);
-    const auto left_out = std::count(near.begin(), near.end(), 0);
-    if (100 * left_out < kLeastLeftOut * problem.rows()) std::fill(near.begin(), near.end(), 1);
-  }
+  for (const auto& [law, k, r] : problem.scalar_rows()) near[r] = !law.unilateral() || (*over)[r] >= 0;
+  add_friction(problem, near);
+  return 100 * std::count(near.begin(), near.end(), 0) < kLeastLeftOut * problem.rows() ? std::vector<char>() : near;
+}
+
+NearRows::NearRows(const Problem& problem, std::vector<char> near, const std::vector<char>& start) : RowSubset(problem) {
+  for (std::size_t r = 0; r < start.size(); ++r) near[r] |= start[r];
+  add_friction(problem, near);
   take(std::move(near));
 }
 

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "algebra/direct/stop_factoring.hpp"
-#include "base/error.hpp"
 #include "base/stopwatch.hpp"
 #include "base/text.hpp"
 #include "problem/uniqueness.hpp"
@@ -28,7 +27,7 @@ std::string all(const std::vector<std::string>& names) {
 void require_held(const problem::Block& block) {
   const double load = block.f.lpNorm<1>();
   if (block.hidden == 0 && load > 0 && (block.kernel.transpose() * block.f).lpNorm<Eigen::Infinity>() < 1e-10 * load) return;
-  throw InputError(text("'", block.name, "' is not held: nothing stops its ", all(texts(block.motions)),
+  throw NotHeld(text("'", block.name, "' is not held: nothing stops its ", all(texts(block.motions)),
                         "; fix a part of it or put it in contact"));
 }
 
@@ -87,7 +86,7 @@ std::string unbalanced_motion(const problem::Problem& problem, const algebra::Ve
 }
 
 void refuse_unbearable(const FrictionalMotion& on, const std::string& proof) {
-  throw InputError(text("not held: friction cannot bear what nothing else stops, ", describe(on.rigid.motions, on.amounts), "; the load does work ",
+  throw NotHeld(text("not held: friction cannot bear what nothing else stops, ", describe(on.rigid.motions, on.amounts), "; the load does work ",
                         on.work, " on a unit of this motion, and no pressures that the bodies can build up have friction enough (", proof, "). ",
                         what_would_hold(on.rigid.motions, on.amounts)));
 }
@@ -103,7 +102,7 @@ KnownBefore require_solvable(const problem::Problem& problem, const problem::Rig
   using Verdict = problem::Solvability::Verdict;
   const problem::Solvability s = problem::solvability(rigid, problem);
   if (s.verdict == Verdict::unsolvable)
-    throw InputError(text("not held: nothing stops ", describe(rigid.motions, s.motion), "; the load does work ", s.work,
+    throw NotHeld(text("not held: nothing stops ", describe(rigid.motions, s.motion), "; the load does work ", s.work,
                           " on a unit of this motion", s.limit ? " (a limit case: turned by 1e-6 the load has a solution)" : "",
                           ". ", what_would_hold(rigid.motions, s.motion)));
   if (s.verdict == Verdict::unknown)

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "base/error.hpp"
 #include "base/monitor.hpp"
 #include "problem/condensed.hpp"
 #include "problem/solvability.hpp"
@@ -9,7 +10,12 @@
 
 namespace dotyk::solver {
 
-/// Throws InputError where the problem has no solution, naming the motion, the work that the load
+/// Nothing holds a body, or no forces that its rows can carry balance the load.
+struct NotHeld : InputError {
+  using InputError::InputError;
+};
+
+/// Throws NotHeld where the problem has no solution, naming the motion, the work that the load
 /// does on it and what would hold it. Otherwise returns what is to be known of the solution.
 struct KnownBefore {
   std::string note;  ///< up to which motion it is unique, that the load is a limit case, or that this is not known; empty where it is unique
@@ -25,7 +31,7 @@ struct Solvable {
 };
 Solvable require_solvable(const problem::Problem& problem, problem::Clock& clock, Monitor& monitor);
 
-/// Refuses a load that only friction could stop, after a proof that no attainable pressure gives enough friction: throws InputError, naming the
+/// Refuses a load that only friction could stop, after a proof that no attainable pressure gives enough friction: throws NotHeld, naming the
 /// motion. `proof`: how it was proved, one phrase.
 [[noreturn]] void refuse_unbearable(const FrictionalMotion& motion, const std::string& proof);
 

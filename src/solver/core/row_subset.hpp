@@ -8,8 +8,9 @@ namespace dotyk::solver {
 /// group: where they differ by row, the group is kept whole.
 class RowSubset {
  public:
-  /// All rows. The problem must outlive this.
-  explicit RowSubset(const problem::Problem& problem) : problem_(problem) { take(std::vector<char>(problem.rows(), 1)); }
+  /// All rows, or those with a flag. The problem must outlive this.
+  explicit RowSubset(const problem::Problem& problem) : RowSubset(problem, std::vector<char>(problem.rows(), 1)) {}
+  RowSubset(const problem::Problem& problem, std::vector<char> kept) : problem_(problem) { take(std::move(kept)); }
 
   bool all() const { return rows_.size() == kept_.size(); }
   int count() const { return static_cast<int>(rows_.size()); }

@@ -51,6 +51,8 @@ class RowIteration {
                double rho, Monitor& monitor);
   /// One of the same rows under other laws, whose problem need not have bodies: forces count as in `outer`.
   RowIteration(const problem::Problem& problem, const RowIteration& outer, const Settings& settings, double rho, Monitor& monitor);
+  RowIteration(const RowIteration&) = delete;  // `map` is its own
+  RowIteration& operator=(const RowIteration&) = delete;
 
   const problem::Problem& problem;
   const problem::CondensedProblem& condensed;
