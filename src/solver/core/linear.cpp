@@ -33,10 +33,7 @@ void solve_block(const problem::Block& block, algebra::Ordering ordering, Monito
   monitor.phase(text("factoring '", block.name, "' (", cholesky.method(), ", ", cholesky.flops() * 1e-9,
                      " Gflop)"));
   const algebra::StopFactoring stop(monitor);
-  if (!cholesky.factor(block.K))
-    throw InputError(text("the stiffness of '", block.name, "' is singular near node ",
-                          block.node[cholesky.failed_unknown()] + 1,
-                          ": a material, spring or mesh value is out of range"));
+  if (!cholesky.factor(block.K)) problem::refuse_singular(block, cholesky.failed_unknown());
   result.clock.factor += watch.lap();
   monitor.check();
   result.state.u.change().segment(block.first, block.size()) = cholesky.solve(block.f);
