@@ -62,7 +62,7 @@ say 'steel = dotyk.material{ E = 210e3, nuu = 0.3 }'
 say 'steel = dotyk.material{ E = 210e3, nu = 0.3 }  -- MPa'
 text 'block = dotyk.body{ name = "block", mesh = '; tab; text ', material = '; tab; say ' }'
 text 'dotyk.rigid.'; tab; clear_line
-say 'punch = dotyk.rigid.gap{ normal = {0,1}, gap = function(x) return x^2/2 - 0.01 end }'
+say 'punch = dotyk.rigid.gap{ normal = {0,1}, gap = function(x) return x^2/40 - 0.0005 end }'
 say 'scene = dotyk.scene{ block }'
 say 'contact = scene:contact{ block:part "tpo", rigid = punch }'
 text 'contact = scene:contact{ block:part "t'; tab; text ', ri'; tab; say 'punch }'

@@ -15,6 +15,7 @@ struct Motion {
   std::vector<double> direction;
   std::vector<double> centre = {};  ///< of a rotation: the point that stays, in space one of its axis
   bool slides = false;              ///< a rotation, with a translation along its axis
+  double amount = 1;                ///< a length, or an angle in radians; negative only of a rotation in the plane, clockwise
 
   /// "x", "-y": along a coordinate axis, "(0.6, 0.8)": along none.
   std::string direction_text() const;
@@ -22,10 +23,13 @@ struct Motion {
   std::string text() const;
 };
 
-/// The translation the other way round.
-inline Motion opposite(Motion translation) {
-  for (double& d : translation.direction) d = d == 0 ? 0 : -d;
-  return translation;
+/// So many times the motion.
+inline Motion times(double factor, Motion motion) {
+  motion.amount *= factor;
+  if (motion.amount >= 0 || motion.direction.empty()) return motion;
+  for (double& d : motion.direction) d = d == 0 ? 0 : -d;
+  motion.amount = -motion.amount;
+  return motion;
 }
 
 /// Is it along a coordinate axis?
@@ -46,7 +50,7 @@ inline std::string Motion::direction_text() const {
 inline std::string Motion::text() const {
   if (kind == Kind::translation) return "translation along " + direction_text();
   const std::string place = point_text(centre.data(), static_cast<int>(centre.size()));
-  if (direction.empty()) return "rotation about " + place;
+  if (direction.empty()) return (amount < 0 ? "clockwise rotation about " : "rotation about ") + place;
   return "rotation about the axis along " + direction_text() + " through " + place +
          (slides ? " with a slide along it" : "");
 }

@@ -4,9 +4,7 @@
 #include <map>
 
 namespace dotyk::contact {
-namespace {
 
-/// Rows that share a facet, by row.
 std::vector<std::vector<int>> neighbours(const std::vector<ContactRow>& rows) {
   std::map<int, std::vector<int>> of_facet;
   for (std::size_t k = 0; k < rows.size(); ++k)
@@ -21,8 +19,6 @@ std::vector<std::vector<int>> neighbours(const std::vector<ContactRow>& rows) {
   }
   return result;
 }
-
-}  // namespace
 
 std::vector<char> at_corners(const std::vector<ContactRow>& rows) {
   std::map<int, int> sides;

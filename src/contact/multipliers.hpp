@@ -101,6 +101,9 @@ double facet_width(const Surface& surface);
 /// h = 1/16) and lose friction's detail.
 inline constexpr double kCellWidth = 2;
 
+/// Rows that share a facet, by row; of one side of an edge, as theirs are.
+std::vector<std::vector<int>> neighbours(const std::vector<ContactRow>& rows);
+
 /// One flag a row: its node has rows of several sides, as the tip of a wedge (TR965 (1.23)). Their normals span the jump, so that tangential
 /// rows there are combinations of the normal ones: B loses rank, and forces of contact are not unique.
 std::vector<char> at_corners(const std::vector<ContactRow>& rows);

@@ -56,16 +56,16 @@ DenseMatrix null_space(const DenseMatrix& rows, int count) {
 
 }  // namespace
 
-Motion RigidFrame::motion(const Vector& c, double noise) const {
+Motion RigidFrame::motion(const Vector& c, double noise, bool sense) const {
   const Vector t = c.head(dimension), omega = c.tail(c.size() - dimension) / size;
   if (omega.norm() * size < noise * std::max(1.0, t.norm()))
-    return {Motion::Kind::translation, unit(t, noise, true)};
+    return {Motion::Kind::translation, unit(t, noise, true), {}, false, t.norm()};
   if (dimension == 2)  // the point that stays: t + ω e_z × (x − centre) = 0
-    return {Motion::Kind::rotation, {},
-            {rounded(centre[0] - t[1] / omega[0], size, noise), rounded(centre[1] + t[0] / omega[0], size, noise)}};
+    return {Motion::Kind::rotation, {}, {rounded(centre[0] - t[1] / omega[0], size, noise), rounded(centre[1] + t[0] / omega[0], size, noise)},
+            false, sense ? omega[0] : std::abs(omega[0])};
   const Eigen::Vector3d w = omega, v = t;
   const Eigen::Vector3d foot = w.cross(v) / w.squaredNorm();
-  Motion motion{Motion::Kind::rotation, unit(w, noise, false), {}};
+  Motion motion{Motion::Kind::rotation, unit(w, noise, sense), {}, false, w.norm()};
   for (int i = 0; i < 3; ++i) motion.centre.push_back(rounded(centre[i] + foot[i], size, noise));
   motion.slides = std::abs(w.dot(v)) > noise * w.norm() * std::max(1.0, v.norm());
   return motion;

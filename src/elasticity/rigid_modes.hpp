@@ -42,8 +42,8 @@ struct RigidFrame {
     return row(mesh.node(static_cast<int>(k) / dimension), static_cast<int>(k) % dimension);
   }
   /// What motion that is; coefficients below `noise` of the motion, and places below `noise` of the size, are
-  /// taken as nothing.
-  Motion motion(const algebra::Vector& coefficients, double noise = 1e-9) const;
+  /// taken as nothing. `sense`: the sense of a rotation matters, else it is named by the axis of positive direction.
+  Motion motion(const algebra::Vector& coefficients, double noise = 1e-9, bool sense = false) const;
 };
 
 /// The rigid motions that a body's supports leave free.

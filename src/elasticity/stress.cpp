@@ -123,6 +123,24 @@ std::vector<Stress> cell_stress(const Mesh& mesh, const MaterialField& material,
   return result;
 }
 
+std::vector<CellDeformation> cell_deformation(const Mesh& mesh, const MaterialField& material, const std::vector<double>& u) {
+  std::vector<CellDeformation> result(mesh.cell_count());
+  dispatch(mesh.element, [&]<class E>() {
+    for_each_cell<E>(mesh, material, [&](int c, const auto& x, const Hooke& hooke) {
+      constexpr int d = E::dim;
+      double g[E::nodes][d];
+      const double measure = physical_gradient<E>(x, E::centre(), g);
+      const auto gradient = gradient_of<d>(mesh, c, u, g);
+      Eigen::Matrix3d strain = Eigen::Matrix3d::Zero();
+      strain.topLeftCorner<d, d>() = (gradient + gradient.transpose()) / 2;
+      const Eigen::Vector3d principal = algebra::eigenvalues3(strain);
+      const double energy = 0.5 * measure * stress_of<d>(hooke, gradient).cwiseProduct(gradient).sum();
+      result[c] = {principal.cwiseAbs().maxCoeff(), (gradient - gradient.transpose()).norm() / std::sqrt(8), measure, energy};
+    });
+  });
+  return result;
+}
+
 std::vector<Stress> nodal_stress(const Mesh& mesh, const MaterialField& material, const std::vector<double>& u) {
   return mesh.topology().order == 2 ? mean_stress(mesh, material, u) : recover_stress(mesh, cell_stress(mesh, material, u));
 }

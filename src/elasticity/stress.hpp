@@ -21,6 +21,15 @@ std::array<double, 3> principal(const Stress& s);
 std::vector<Stress> cell_stress(const mesh::Mesh& mesh, const MaterialField& material,
                                 const std::vector<double>& u);
 
+/// What the nodal displacement u makes of a cell, at its centre.
+struct CellDeformation {
+  double strain;    ///< the greatest principal one, without sign
+  double rotation;  ///< an angle, of the skew part of ∇u
+  double measure;   ///< of the cell, in units of its reference element's
+  double energy;    ///< ½ ε:σ times the measure
+};
+std::vector<CellDeformation> cell_deformation(const mesh::Mesh& mesh, const MaterialField& material, const std::vector<double>& u);
+
 /// Nodal stress of the nodal displacement u (node × dimension). First order: recovered, see recover_stress(). Second order: the
 /// mean of what the node's cells have there, of order 2 (superconvergent recovery would need each cell's own points; Zienkiewicz and Zhu 1992).
 std::vector<Stress> nodal_stress(const mesh::Mesh& mesh, const MaterialField& material, const std::vector<double>& u);

@@ -34,18 +34,18 @@ Vector Model::unknowns(const Vector& freedoms) const {
 namespace {
 
 /// a + b (x − x₀)/ℓ + c (y − y₀)/ℓ.
-Motion motion(const Vector3d& p, const Vector2d& centre, double unit) {
+Motion motion(const Vector3d& p, const Vector2d& centre, double unit, double noise = 1e-9) {
   const Vector2d slope = p.tail<2>();
-  if (slope.norm() < 1e-9 * std::abs(p[0])) return {Motion::Kind::translation, {0, 0, 1}};
+  if (slope.norm() < noise * std::abs(p[0])) return {Motion::Kind::translation, {0, 0, p[0] < 0 ? -1.0 : 1.0}, {}, false, std::abs(p[0])};
   const Vector2d on_axis = centre - p[0] * unit / slope.squaredNorm() * slope;
   const Vector2d along = Vector2d(slope[1], -slope[0]).normalized();
-  return {Motion::Kind::rotation, {along[0], along[1], 0}, {on_axis[0], on_axis[1], 0}};
+  return {Motion::Kind::rotation, {along[0], along[1], 0}, {on_axis[0], on_axis[1], 0}, false, slope.norm() / unit};
 }
 
 /// Motions a + bx + cy that no held freedom stops.
 struct FreeMotions {
   DenseMatrix kernel;  ///< unknowns × motions
-  std::vector<Motion> motions;
+  problem::Motions motions;
 };
 
 FreeMotions free_motions(const Space& space, const Held& held, const std::vector<int>& unknown) {
@@ -66,6 +66,7 @@ FreeMotions free_motions(const Space& space, const Held& held, const std::vector
   for (int i = 0; i < R.rows(); ++i)
     if (unknown[i] >= 0) out.kernel.row(unknown[i]) = R.row(i) * coefficients;
   for (int j = 0; j < free; ++j) out.motions.push_back(motion(coefficients.col(j), space.centre(), space.unit));
+  out.motions.sum = [coefficients, centre = space.centre(), unit = space.unit](const Vector& amounts) { return motion(coefficients * amounts, centre, unit, 1e-6); };
   return out;
 }
 

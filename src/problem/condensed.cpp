@@ -92,11 +92,7 @@ std::vector<CondensedBlock> condense(const Problem& problem, algebra::Ordering o
   algebra::factor_in_threads(flops, phase, monitor, [&](int b) {
     const Block& block = problem.blocks[b];
     if (parts[b].condensation.factor(block.K)) return;
-    const int unknown = parts[b].condensation.failed_unknown();
-    throw SingularStiffness(text("the stiffness of '", block.name, "' is singular",
-                          unknown >= 0 ? text(" (node ", block.node[unknown] + 1, " is not held)") : "",
-                          block.kernel.cols() > 0 ? text(" beyond its ", block.kernel.cols(), " rigid motions") : "",
-                          ": a material, spring or mesh value is out of range, or cells hang together at single nodes only"));
+    refuse_singular(block, parts[b].condensation.failed_unknown());
   });
   clock.factor += watch.lap();
   return parts;

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "algebra/direct/condensation.hpp"
-#include "base/error.hpp"
 #include "base/monitor.hpp"
 #include "problem/rigid_motions.hpp"
 
@@ -30,12 +29,6 @@ struct CondensedBlock {
   algebra::Vector load;      ///< condensed, once taken
   int first_unknown, size;
   void take_load(const algebra::Vector& f) { load = condensation.condense(f); }
-};
-
-/// The stiffness of a block cannot be factored though its kernel is held: to rounding it is singular, as that of very thin bodies is without contact.
-class SingularStiffness : public InputError {
- public:
-  using InputError::InputError;
 };
 
 /// Orders all blocks, factors them by factor_in_threads() and condenses them, without their loads. Adds its times to `clock`. Throws InputError if a block

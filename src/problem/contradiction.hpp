@@ -6,14 +6,17 @@
 
 namespace dotyk::problem {
 
-/// A one-sided row that no displacement satisfies, as bilateral rows hold B_r u.
+/// Rows that no displacement satisfies together.
 struct Contradiction {
-  int row;
-  double by;  ///< of B_r u − c_r > 0, a displacement
+  int row;     ///< one that pushes most, one-sided where there is one
+  double by;   ///< a displacement: how far it is violated where all others hold
+  std::vector<int> others;  ///< the one that counts most first
 };
 
-/// The first one of those that are violated at rest by more than `tol`, a displacement, where B_r is a combination of the bilateral rows B_k that
-/// share unknowns with it, and the same combination of their c_k exceeds c_r by as much. Nothing where there is none of this kind.
+/// The first ones among the one-sided rows (B u ≤ c) and the bilateral ones (B u = c), or nothing. What rest satisfies to `tol`, a displacement, is no
+/// contradiction. By Farkas's lemma there is one exactly if μ, not negative on one-sided rows, has Bᵀμ = 0 and cᵀμ < 0. Rows with an unknown of
+/// their own take part in none; of the others that share unknowns the least ‖(Bᵀμ, 1 + cᵀμ)‖ is sought (C. L. Lawson, R. J. Hanson, Solving
+/// least squares problems, 1974, chapter 23: it is 1/√(1 + ‖u‖²) with u the shortest displacement that satisfies them, 0 where there is none).
 std::optional<Contradiction> contradiction(const Problem& problem, double tol);
 
 }  // namespace dotyk::problem

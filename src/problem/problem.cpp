@@ -145,6 +145,16 @@ void require_moderate(const Problem& problem, double most_force) {
   require_within(stiffness > 0 ? force / stiffness : 0, kMostDisplacement, "displacements");
 }
 
+void refuse_singular(const std::string& name, Eigen::Index modes, int node, const std::pair<std::string, std::string>& about) {
+  throw SingularStiffness(text("the stiffness of ", name, " is singular", node >= 0 ? text(" at node ", node + 1, about.first) : "", modes > 0 ? text(" beyond its ", modes, " rigid motions") : "",
+                        ": ", about.second.empty() ? "a material, spring or mesh value is out of range, or cells hang together at single nodes only" : about.second));
+}
+
+void refuse_singular(const Block& block, int unknown) {
+  const int node = unknown >= 0 ? block.node[static_cast<std::size_t>(unknown)] : -1;
+  refuse_singular("'" + block.name + "'", block.kernel.cols(), node, node >= 0 && block.about ? block.about(node) : std::pair<std::string, std::string>());
+}
+
 void add(Problem& problem, Block block) {
   require_kernel(block.K, block.kernel, "'" + block.name + "'", block.motions);
   block.first = problem.unknowns();

@@ -7,6 +7,7 @@
 
 #include "algebra/coarse_functions.hpp"
 #include "algebra/symmetric_matrix.hpp"
+#include "base/error.hpp"
 #include "base/motion.hpp"
 #include "problem/friction.hpp"
 #include "problem/law.hpp"
@@ -26,6 +27,14 @@ struct CoarseMeshes {
   std::function<algebra::DenseMatrix(int levels)> rigid = {};
 };
 
+/// What the modes of a kernel are; may be empty.
+struct Motions : std::vector<Motion> {
+  using std::vector<Motion>::vector;
+  Motions(std::vector<Motion> motions = {}) : std::vector<Motion>(std::move(motions)) {}
+  /// What so much of all of them together is, a motion again; empty: that is not known.
+  std::function<Motion(const algebra::Vector& amounts)> sum = {};
+};
+
 /// One body's energy ½uᵀKu − fᵀu + offset on its own unknowns.
 struct Block {
   std::string name;
@@ -34,11 +43,13 @@ struct Block {
   double offset = 0;
   std::vector<int> node;        ///< node of each unknown, ascending: what orderings keep together
   algebra::DenseMatrix kernel;  ///< ker K: unknowns × modes, linearly independent columns
-  std::vector<Motion> motions;  ///< what the modes are; may be empty
+  Motions motions;              ///< what the modes are; may be empty
   int first = 0;                ///< index of its first unknown among all blocks'
   /// All rigid motions of the body on its unknowns, whatever holds it: what multigrid's coarse functions are made of. May be empty.
   std::function<algebra::DenseMatrix()> rigid = {};
   CoarseMeshes coarse = {};
+  /// For messages, of a node: " at (1, 0)", and what is wrong with the cells there, else empty. May be empty.
+  std::function<std::pair<std::string, std::string>(int node)> about = {};
   int hidden = 0;  ///< unknowns that only the slices of K have: no row is about them, the kernel lacks their numbers, and they are not counted by size()
   /// kernelᵀ times the load that the slices of K have, and the same without signs; empty: there is none.
   algebra::Vector sliced_resultants = {}, gross_sliced_resultants = {};
@@ -130,6 +141,17 @@ void require_moderate(const Problem& problem, double most_force);
 inline constexpr double kMostForceOnRows = 1e120;
 /// For methods on subdomains, which bring loads to 1 before they square them.
 inline constexpr double kMostForceOnSubdomains = 1e175;
+
+/// The stiffness of a block cannot be factored though its kernel is held: to rounding it is singular, as that of very thin bodies is without contact.
+class SingularStiffness : public InputError {
+ public:
+  using InputError::InputError;
+};
+
+/// Throws it: a stiffness that should be positive definite beyond its `modes` rigid motions is singular. `name`: whose, in quotes; `node`: where,
+/// from 0, or -1.
+[[noreturn]] void refuse_singular(const std::string& name, Eigen::Index modes, int node, const std::pair<std::string, std::string>& about = {});
+[[noreturn]] void refuse_singular(const Block& block, int unknown);  ///< unknown: of the block, or -1
 
 /// Adds a block, setting its `first`. Throws as require_kernel().
 void add(Problem& problem, Block block);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 
 #include "algebra/dense/null_space.hpp"
 #include "base/text.hpp"
@@ -68,26 +69,32 @@ void take_load(const Problem& problem, RigidMotions& rigid) {
 std::vector<BodyMotion> body_motions(const Problem& problem) {
   std::vector<BodyMotion> motions;
   for (const Block& block : problem.blocks)
-    for (const Motion& motion : block.motions) motions.push_back({block.name, motion});
+    for (const Motion& motion : block.motions) motions.push_back({block.name, motion, block.motions.sum});
   return motions;
 }
 
-std::string describe(const std::vector<BodyMotion>& motions, const Vector& amounts) {
-  if (motions.empty()) return "a motion without strain";  // of a problem that does not say what its modes are
-  const double largest = amounts.lpNorm<Eigen::Infinity>();
-  std::vector<int> terms;
-  for (int k = 0; k < amounts.size(); ++k)
-    if (std::abs(amounts[k]) > 1e-6 * largest) terms.push_back(k);
-  if (terms.size() == 1 && amounts[terms[0]] < 0) {
-    const auto& [body, motion] = motions[terms[0]];
-    if (motion.kind == Motion::Kind::rotation) return motions[terms[0]].text() + " (backwards)";
-    return BodyMotion{body, opposite(motion)}.text();
+std::vector<BodyMotion> told(const std::vector<BodyMotion>& modes, const Vector& amounts) {
+  constexpr double kRest = 1e-6;  // of the greatest amount: what solvers leave in motions
+  const Vector part = amounts.unaryExpr([greatest = amounts.lpNorm<Eigen::Infinity>()](double a) { return std::abs(a) > kRest * greatest ? a / greatest : 0; });
+  std::vector<BodyMotion> all;
+  for (Eigen::Index first = 0, end = 0; first < part.size(); first = end) {
+    const auto& [body, motion, sum] = modes[static_cast<std::size_t>(first)];
+    while (end < part.size() && modes[static_cast<std::size_t>(end)].body == body) ++end;
+    const Vector own = part.segment(first, end - first);
+    if (own.isZero(0)) continue;
+    if (sum) all.push_back({body, sum(own)});
+    for (Eigen::Index k = first; !sum && k < end; ++k)
+      if (part[k] != 0) all.push_back({body, times(part[k], modes[static_cast<std::size_t>(k)].motion)});
   }
+  return all;
+}
+
+std::string describe(const std::vector<BodyMotion>& modes, const Vector& amounts) {
+  if (modes.empty()) return "a motion without strain";  // of a problem that does not say what its modes are
+  const std::vector<BodyMotion> motions = told(modes, amounts);
   std::string out;
-  for (int k : terms) {
-    out += (out.empty() ? "" : ", ") + motions[k].text();
-    if (terms.size() > 1) out += text(" by ", std::round(1e4 * amounts[k] / largest) / 1e4);
-  }
+  for (const BodyMotion& one : motions)
+    out += (out.empty() ? "" : ", ") + one.text() + (motions.size() > 1 ? text(" by ", std::setprecision(4), std::abs(one.motion.amount)) : "");
   return out;
 }
 

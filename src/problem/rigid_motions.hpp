@@ -14,6 +14,7 @@ constexpr double kNotAtAll = 1e-9;
 struct BodyMotion {
   std::string body;
   Motion motion;
+  std::function<Motion(const algebra::Vector&)> sum = {};  ///< as Motions::sum, the same for all modes of the block
   /// "'lid': translation along x".
   std::string text() const { return "'" + body + "': " + motion.text(); }
 };
@@ -40,7 +41,11 @@ void take_load(const Problem& problem, RigidMotions& rigid);
 /// What the modes of all blocks' kernels are, block after block.
 std::vector<BodyMotion> body_motions(const Problem& problem);
 
-/// "'lid': translation along x", or a combination with its amounts: one for each of the motions.
+/// What each block does under so much of each mode: one motion, where Motions::sum is known, else its modes one by one; blocks that rest are
+/// left out. Their amounts are such that the greatest mode's is 1.
+std::vector<BodyMotion> told(const std::vector<BodyMotion>& modes, const algebra::Vector& amounts);
+/// "'lid': translation along x", "'lid': clockwise rotation about (0, 0)"; of several blocks each with its amount (a length, or an angle in
+/// radians) beside the others'.
 std::string describe(const std::vector<BodyMotion>& motions, const algebra::Vector& amounts);
 
 /// R α, the displacement of all unknowns under motions α (modes × any number of columns).

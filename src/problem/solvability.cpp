@@ -20,6 +20,7 @@ namespace {
 /// The load's size in each of the problem's parts(), by row; 1 where there is none. In units of it no part is small beside another.
 struct Units {
   Vector of_row, of_mode;
+  std::vector<char> loaded;  ///< by mode: is there a load on its part?
 };
 
 Units units(const RigidMotions& rigid, const Problem& problem) {
@@ -29,8 +30,10 @@ Units units(const RigidMotions& rigid, const Problem& problem) {
   for (std::size_t b = 0; b < problem.blocks.size(); ++b)
     part_of_mode.insert(part_of_mode.end(), static_cast<std::size_t>(problem.blocks[b].kernel.cols()), parts.of_block[b]);
   for (int k = 0; k < rigid.count(); ++k) size[part_of_mode[k]] = std::hypot(size[part_of_mode[k]], rigid.e[k]);
+  std::vector<char> loaded;
+  for (const int part : part_of_mode) loaded.push_back(size[part] > 0);
   size = size.unaryExpr([](double s) { return s > 0 && std::isfinite(s) ? s : 1; }).eval();
-  return {size(parts.of_row), size(part_of_mode)};
+  return {size(parts.of_row), size(part_of_mode), std::move(loaded)};
 }
 
 /// Work below this part of the load's size counts as none: rounding of Rᵀf and of the modes.
@@ -169,11 +172,13 @@ Solvability solvability(const RigidMotions& given, const Problem& problem) {
     return s;
   }
   const auto edge = beyond_edge(rigid, problem, all, unit.of_row, load > 0 ? load : 1);
-  s.limit = edge && edge->norm() > 0;
+  Eigen::Index most = 0;
+  const bool moves = edge && edge->cwiseAbs().maxCoeff(&most) > 0;
+  s.limit = moves && unit.loaded[static_cast<std::size_t>(most)];  // a part without a load has none that could turn
   if (rigid.unnoticed.cols() > 0) {
     s.verdict = Solvability::Verdict::up_to_motion;
     s.motion = greatest_one(Vector(rigid.unnoticed.col(0)));
-  } else if (s.limit) {
+  } else if (moves) {
     s.verdict = Solvability::Verdict::up_to_motion;
     s.motion = greatest_one(*edge);
     s.work = given.e.dot(s.motion);

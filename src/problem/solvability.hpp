@@ -16,7 +16,7 @@ struct Solvability {
     unknown,       ///< nothing is proved: the iteration ended before it was known whether the load is carried, or is a limit case
   };
   Verdict verdict = Verdict::unique;
-  /// On the edge: solvable, but turned by 1e-6 the load is not; or the other way round.
+  /// On the edge: solvable, but turned by 1e-6 the load is not; or the other way round. Never of parts without a load.
   bool limit = false;
   bool carried = true;     ///< proved: the load is balanced by multipliers that the laws can carry
   algebra::Vector motion;  ///< amounts of the modes, greatest 1; empty for unique and unknown

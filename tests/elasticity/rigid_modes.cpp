@@ -162,3 +162,16 @@ TEST_CASE("prescribed values do not matter for what is held") {
       });
   CHECK(texts(elasticity::rigid_modes(m, numbering, {}).motions) == std::vector<std::string>{"translation along y"});
 }
+
+TEST_CASE("any rigid motion is named by what it is, with its sense and amount") {
+  const auto told = [](const mesh::Mesh& m, std::vector<double> c) { return elasticity::RigidFrame(m).motion(Eigen::Map<const algebra::Vector>(c.data(), std::ssize(c)), 1e-6, true); };
+  const mesh::Mesh plane = test::rectangle(mesh::Family::p1, 2, 2, 0, 0, 2, 1);  // about (1, 0.5), of size 2
+  const auto turned = told(plane, {0.25, -0.5, -1});  // about the origin: t = ω × (1, 0.5), ω = -1/2
+  CHECK(turned.text() == "clockwise rotation about (0, 0)");
+  CHECK(turned.amount == doctest::Approx(-0.5));
+  CHECK(told(plane, {3, 4, 1e-9}).text() == "translation along (0.6, 0.8)");
+  CHECK(told(plane, {3, 4, 0}).amount == doctest::Approx(5));
+  const mesh::Mesh box = test::box(mesh::Family::p1, 2, 2, 2);
+  CHECK(told(box, {0, 0, 0, 0, 0, -1}).text() == "rotation about the axis along -z through (0.5, 0.5, 0.5)");
+  CHECK(times(-2, told(box, {0, 0, 0, 0, 0, 1})).text() == "rotation about the axis along -z through (0.5, 0.5, 0.5)");
+}

@@ -185,7 +185,7 @@ local pair <const>, upper <const> = (function()
 end)()
 refused(function() dotyk.solve(pair, { steps = { { move = { [upper] = { 1, 0 } } } } }) end, "has no rigid shape to move")
 refused(function() dotyk.solve(pair, { steps = { {}, { load = { shear = 10 } } } }) end,
-        "step 2: not held: nothing stops 'half 1': translation along x")
+        "step 2: not held: nothing stops 'half 1': clockwise rotation about (1.09677, 0.758065)")
 refused(function() dotyk.solve(pair, { after = dotyk.solve(shear) }) end, "'after' has other contact rows than the scene")
 
 -- A step that does not converge, or is stopped, ends the history.

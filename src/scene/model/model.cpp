@@ -23,7 +23,11 @@ namespace dotyk::scene {
 namespace {
 
 using elasticity::Numbering;
+using mesh::Mesh;
 using mesh::Point;
+
+/// Of motions that solvers find: parts of this size are what they leave.
+constexpr double kMotionNoise = 1e-6;
 
 /// "fix of left (2 nodes), spring on top".
 std::string supports_of(const Body& body) {
@@ -163,6 +167,29 @@ void see_weak_motions(Model& model, std::size_t b, bool movable) {
                           ", whose stiffness is lost in rounding beside the body's; leave that away, or make it stiffer"));
 }
 
+/// Greatest extent of a cell over its least thickness.
+double slenderness(const Mesh& mesh, int cell) {
+  const Point centre = mesh.cell_centre(cell);
+  double extent = 0, widest = 0, size = 0;
+  for (int f = 0; f < mesh.topology().facets; ++f) {
+    const Point area = mesh.facet_area_vector({cell, f}), arm = mesh::minus(mesh.facet_centre({cell, f}), centre);
+    widest = std::max(widest, mesh::length(area)), size += mesh::dot(arm, area) / mesh.dimension();
+  }
+  for (int a = 0; a < mesh.topology().nodes; ++a) extent = std::max(extent, 2 * mesh::length(mesh::minus(mesh.point(mesh.cell(cell)[a]), centre)));
+  return extent * widest / size;
+}
+
+/// What Block::about() tells.
+std::pair<std::string, std::string> about(const Mesh& mesh, int node) {
+  constexpr double kSlender = 100;
+  const Buckets cells = mesh::cells_of_nodes(mesh);
+  double most = 0;
+  for (const int cell : cells[node]) most = std::max(most, slenderness(mesh, cell));
+  return {" at " + point_text(mesh.node(node), mesh.dimension()),
+          most < kSlender ? "" : text("cells there are ", std::round(most), " times as long as they are thick, and rounding takes their stiffness against bending; "
+                                      "take more cells along the body, at most some ", kSlender, " times as long as thick, or dotyk.beam or dotyk.plate")};
+}
+
 /// A block that is not assembled yet.
 void add_body(const Body& body, Model& model) {
   model.numbering.push_back(number(body));
@@ -179,8 +206,10 @@ void add_body(const Body& body, Model& model) {
   }
   block.kernel = std::move(rigid.modes);
   block.motions = std::move(rigid.motions);
+  block.motions.sum = [frame = rigid.frame, modes = std::move(rigid.coefficients)](const algebra::Vector& amounts) { return frame.motion(modes * amounts, kMotionNoise, true); };
   const SharedList<int>& unknown = numbering.unknown;
   block.rigid = [mesh = body.mesh, unknown, count = numbering.count()] { return elasticity::all_rigid_motions(*mesh, unknown, count); };
+  if (!body.unrefined) block.about = [mesh = body.mesh](int node) { return about(*mesh, node); };
   block.coarse = {mesh::coarser_nodes(*body.mesh), body.mesh->dimension(), [mesh = body.mesh, unknown, count = numbering.count()](int levels) {
                     return elasticity::coarse_functions(*mesh, unknown, count, levels);
                   }, body.mesh->topology().order};
@@ -238,13 +267,17 @@ std::vector<double> Model::displacement(int body, const algebra::Vector& u) cons
 
 namespace {
 
-/// Refuses an interference at a node that other contacts or supports hold: friction without a bound, for example.
+/// Refuses an interference, or prescribed displacements, that other contacts or supports leave no way out of.
 void require_consistent(const Scene& scene, const problem::Problem& problem) {
   double size = 0;
   for (const auto& body : scene.bodies) size = std::max(size, body->mesh->size());
-  if (const auto found = problem::contradiction(problem, 1e-9 * size))
-    throw InputError(text(problem.row_name(found->row), " lies ", found->by, " inside the other side, and other contacts or supports hold it there; "
-                          "no displacement can part them"));
+  const auto found = problem::contradiction(problem, 1e-9 * size);
+  if (!found) return;
+  const std::vector<const problem::RowGroup*> group = problem.group_of_rows();
+  std::vector<std::string> others;
+  for (const int r : found->others) others.push_back(text(group[r]->name, " at ", problem.row_name(r)));
+  throw InputError(text(group[found->row]->name, ": ", problem.row_name(found->row), group[found->row]->law->unilateral() ? text(" lies ", found->by, " inside the other side") : text(" is ", found->by, " off"),
+                        ", and others hold it there (", listed(others, 3), "): no displacement can part them; leave one away, or make the interference or the prescribed displacement less"));
 }
 
 /// All rows anew, for the prescribed displacements and moves as they are now.

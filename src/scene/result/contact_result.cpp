@@ -68,6 +68,68 @@ Point acting_at(const mesh::Mesh& mesh, const contact::ContactRow& row) {
   return mesh::length(mesh::minus(x, node)) > 1e-9 * mesh.size() ? x : node;
 }
 
+/// The place whose pressure (and shear) the row's is, a mean weighted with the node's hat function: where facets about it are unlike, as at ends of the
+/// part, off the node.
+Point hat_centre(const mesh::Mesh& mesh, const Part& part, const contact::ContactRow& row) {
+  Point moment{0, 0, 0};
+  double sum = 0;
+  for (const int f : row.facets) {
+    const mesh::Facet& facet = part.facets[static_cast<std::size_t>(f)];
+    const int corners = mesh.topology().facet_corners;
+    const double area = mesh::length(mesh.facet_area_vector(facet));
+    // A hat's means: of a segment 2/3 and 1/3, of a triangle 1/2 and 1/4 twice, of a parallelogram those of a segment along both edges.
+    Point there{0, 0, 0};
+    int own = 0;
+    for (int a = 0; a < corners; ++a)
+      if (mesh.facet_node(facet, a) == row.node) own = a;
+    for (int a = 0; a < corners; ++a) {
+      const int apart = std::abs(a - own);
+      const double weight = corners == 4 ? (apart == 0 ? 4 : apart == 2 ? 1 : 2) / 9.0 : (a == own ? 2 : 1) / (corners + 1.0);
+      there = mesh::plus(there, mesh::times(weight, mesh.point(mesh.facet_node(facet, a))));
+    }
+    moment = mesh::plus(moment, mesh::times(area, there)), sum += area;
+  }
+  return sum > 0 ? mesh::times(1 / sum, moment) : mesh.point(row.node);
+}
+
+/// By how much the row's surroundings yield to its pressure, per pressure: the width over so many shear moduli, of both sides. In Hertz's contact
+/// pressure times h/(¾E*), E* some 3G, and the gap, h to either side of the edge of contact, are on a line that is 0 there; means over surroundings
+/// (order 2) put more pressure on the last node. The factors make the mean error least on meshes of 4 to 17 facets in contact.
+double yielding(const Contact& contact, const contact::ContactRow& row) {
+  const auto modulus = [](const Part& part, int f) {
+    const Unrefined* before = part.body->unrefined.get();
+    return (before ? before->material.at(0) : part.body->material.at(part.facets[static_cast<std::size_t>(f)].cell)).c[0][1][0][1];
+  };
+  double sum = 1 / modulus(contact.first, row.facets.front());
+  if (contact.second.body) sum += 1 / modulus(contact.second, 0);
+  const double factor = contact.first.body->mesh->topology().order == 1 ? 3 : 6;
+  return std::pow(row.weight, 1.0 / (contact.first.body->dimension() - 1)) * sum / factor;
+}
+
+/// Of the way from one node to the middle of the way to another, the part that presses; `here` and `there` are positive where they do.
+double pressing(double here, double there) {
+  if ((here > 0) == (there > 0)) return here > 0 ? 1 : 0;
+  const double edge = 2 * here / (here - there);
+  return here > 0 ? std::min(edge, 1.0) : std::max(1 - edge, 0.0);
+}
+
+/// Where it presses: a node's share, and next to nodes that do not press what the edge of contact between them leaves of it.
+double pressed_area(const Contact& contact, const std::vector<ContactNode>& nodes) {
+  const auto neighbours = contact::neighbours(contact.rows);
+  const bool one_sided = contact.normal.kind == problem::SupportLaw::Kind::signorini;
+  std::vector<double> at;
+  for (std::size_t k = 0; k < nodes.size(); ++k)
+    at.push_back(!one_sided || contact.rows[k].facets.empty() ? (nodes[k].status != problem::Status::open ? 1 : -1)
+                 : nodes[k].pressure > 0 ? nodes[k].pressure * yielding(contact, contact.rows[k]) : -std::max(nodes[k].gap, 0.0));
+  double area = 0;
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    double share = 0;
+    for (const int n : neighbours[k]) share += one_sided ? pressing(at[k], at[static_cast<std::size_t>(n)]) : at[k] > 0;
+    area += nodes[k].weight * (neighbours[k].empty() ? at[k] > 0 : share / static_cast<double>(neighbours[k].size()));
+  }
+  return area;
+}
+
 /// ",shear_x,shear_y".
 std::string components(const std::string& name, int dim) {
   std::string out;
@@ -124,6 +186,7 @@ ContactResult Solution::contact(const Contact& asked) const {
     node.displacement = mesh::at_node(displacement(first), row.node, dim);
     node.normal = row.normal;
     node.weight = row.weight;
+    node.centre = hat_centre(*scene_->bodies[first]->mesh, contact.first, row);
     if (contact.pairing == contact::Pairing::mortar) node.x = acting_at(*scene_->bodies[first]->mesh, row);
     const Point other = second >= 0 ? contact::mean(row.partners, displacement(second), dim) : model_.move[index];
     const Point jump = mesh::minus(contact::mean(row.own, displacement(first), dim), other);
@@ -146,6 +209,7 @@ ContactResult Solution::contact(const Contact& asked) const {
     result.add(node.status, node.weight, node.pressure);
     result.nodes.push_back(node);
   }
+  result.area = pressed_area(contact, result.nodes);
   return result;
 }
 

@@ -57,13 +57,17 @@ double widest_cell(const Scene& scene, const Model& model, const Vector& lambda)
 std::string resisted_by_cells(const Scene& scene, const Model& model, const problem::Problem& problem, const problem::FreeMotions& free,
                               const Vector& lambda) {
   if (free.weakest.size() == 0) return "";
-  const auto motions = problem::body_motions(problem);
-  Eigen::Index mode;
-  free.weakest.cwiseAbs().maxCoeff(&mode);
-  if (motions.size() != static_cast<std::size_t>(free.weakest.size()) || motions[mode].motion.kind != Motion::Kind::rotation) return "";
+  const auto modes = problem::body_motions(problem);
+  if (modes.size() != static_cast<std::size_t>(free.weakest.size())) return "";
+  Eigen::Index most;
+  free.weakest.cwiseAbs().maxCoeff(&most);
+  const std::string& name = modes[static_cast<std::size_t>(most)].body;
+  const auto motions = problem::told(modes, free.weakest[most] < 0 ? Vector(-free.weakest) : free.weakest);
+  const auto it = std::find_if(motions.begin(), motions.end(), [&](const problem::BodyMotion& one) { return one.body == name; });
+  if (it->motion.kind != Motion::Kind::rotation) return "";
   for (const auto& body : scene.bodies)
-    if (body->name == motions[mode].body && free.grip * body->mesh->size() / 2 <= kNarrow * widest_cell(scene, model, lambda))
-      return text("; ", motions[mode].text(), " is resisted only by terms of the order of the mesh (contact is hardly wider than its cells): how far it goes "
+    if (body->name == name && free.grip * body->mesh->size() / 2 <= kNarrow * widest_cell(scene, model, lambda))
+      return text("; ", it->text(), " is resisted only by terms of the order of the mesh (contact is hardly wider than its cells): how far it goes "
                   "is the mesh's");
   return "";
 }
@@ -206,15 +210,18 @@ std::string force_text(std::array<double, 3> force, int dimension) {
 
 /// To so many unknowns printing a solution may cost the steps of path_error(), some tenths of a second.
 constexpr int kMostToPrintPath = 4000;
+/// A smaller path error is rounding.
+constexpr double kSamePath = 1e-7;
 
 /// What one load step from rest leaves out of friction's path; empty where nothing.
 std::string path_text(const Solution& s) {
-  if (s.follows() || !s.result().converged || !share_of_path(s)) return "";
+  if (s.follows() || !s.result().converged || !follows_path(s)) return "";
   const std::string known = "  friction follows the path of the load, this is one step of it: ";
   if (s.unknowns() > kMostToPrintPath) return known + "path_error() says how far from eight steps\n";
   Monitor quiet;
   try {
-    return known + text(std::setprecision(3), "friction forces differ by ", 100 * s.path_error(quiet), " % from those of eight steps\n");
+    const double error = s.path_error(quiet);
+    return known + (error > kSamePath ? text(std::setprecision(3), "friction forces differ by ", 100 * error, " % from those of eight steps\n") : "eight steps give the same\n");
   } catch (const InputError& error) {
     return known + error.what() + "\n";
   }

@@ -23,7 +23,8 @@ struct ContactNode {
   mesh::Point normal{};        ///< unit, out of the first body
   double gap = 0;              ///< after deformation, positive when open
   double force = 0;            ///< normal multiplier, positive in compression
-  double pressure = 0;         ///< force / weight
+  double pressure = 0;         ///< force / weight, a mean over the node's surroundings
+  mesh::Point centre{};        ///< the place where pressure and shear are such, but for terms of second order: at an end of the part off the node
   double weight = 0;           ///< length or area of the node
   mesh::Point shear{};         ///< per length or area, on the first body
   mesh::Point slip{};          ///< tangential jump since the beginning, less a rigid shape's displacement
@@ -32,7 +33,7 @@ struct ContactNode {
 
 /// What the nodes of a contact, or of a support by laws, do along the normal.
 struct NodeCount {
-  double area = 0;          ///< of nodes that are not open
+  double area = 0;          ///< where it presses: of a contact the edge is sought between nodes, of a support the shares of nodes that are not open
   double max_pressure = 0;
   int open = 0, closed = 0, stick = 0, slip = 0;  ///< nodes, by their status
   void add(problem::Status status, double weight, double pressure);
@@ -152,8 +153,8 @@ class Solution : public std::enable_shared_from_this<Solution> {
   /// How far one load step is from kPathSteps equal ones of the load, the prescribed displacements and the rigid shapes' displacements:
   /// Σ|λ_t − λ_t'| over the points of friction in Σ|λ_t'|, λ_t' their forces after the steps. A node that sticks where a share τ of the load
   /// has closed it bears 1/(1 − τ) times too much after one step; by two steps that is not seen if τ < ½, by n if τ < 1/n. Of a solution
-  /// without steps before it; the steps have one factorisation and the default method. 0 where share_of_path() is nothing. Throws InputError
-  /// for a solution that follows another, or where the steps do not converge. Made on first use.
+  /// without steps before it; the steps have one factorisation and the default method. 0 where a part of the load has that part of the
+  /// solution: no gap closed, friction is Coulomb's and laws are cones. Throws InputError for a solution that follows another, or where the steps do not converge. Made on first use.
   double path_error(Monitor& monitor) const;
   static constexpr int kPathSteps = 8;
   /// A posteriori estimate of the error in the energy norm, contact included, made on first use.
@@ -201,13 +202,9 @@ struct RigidMotion {
 /// contacts or laws do not allow it, and for a step that is not the last of its history.
 std::shared_ptr<Solution> moved_rigidly(const Solution& solution, int body, const RigidMotion& motion);
 
-/// Does what a contact's friction bears depend on the way of the load? Where nodes that rub closed from a gap (or opened a pressure fit):
-/// a single step takes all of the jump since rest for slip, also what came before the node closed. And where a contact without friction
-/// closed from a gap: before, bodies may have gone where it then did not let them go on. Where all gaps of closed nodes are 0,
-/// a solution under Coulomb friction at a part of the load is that part of it, and one step is exact: nothing. Else the share of
-/// friction's force, Σ|λ_t|, at points that closed on the way and stick at the end (where points slip, |λ_t| is its bound and does
-/// not depend on the way); all of it where a contact without friction closed on the way.
-std::optional<double> share_of_path(const Solution& solution);
+/// Does friction depend on the way of the load? Where something rubs and a contact, this one or another, closed from a gap on the way (or opened
+/// from a pressure fit): a single step takes all of the jump since rest for slip, also what came before the node closed.
+bool follows_path(const Solution& solution);
 
 /// Where contacts and supports by laws start: as a coarser solution's nearest nodes were (its contact or support of the
 /// same number), or with the contact rows named (numbered over all contacts in order); rows of which neither tells, and

@@ -1,11 +1,11 @@
 #include "scene/solve/doubts.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iomanip>
 #include <map>
 
-#include "algebra/dense/decompositions.hpp"
 #include "algebra/dense/null_space.hpp"
 #include "base/text.hpp"
 
@@ -40,8 +40,9 @@ void add_locking(const Body& body, std::vector<std::string>& all) {
                        cells.nodes == cells.dimension + 1 ? "element = \"P2\"" : "element = \"Q2\" or \"P2\"", ")"));
 }
 
-/// Gaps that chords make uncertain by more than this part of the interference, or of how gaps differ, give no pressure to rely on.
-constexpr double kMostOfGap = 0.1;
+/// Gaps that chords make uncertain by more than this part of the interference, or of how gaps differ: pressed rings have a pressure that is off by 0.7
+/// times that part in the mean and by 1.5 times from node to node.
+constexpr double kMostOfGap = 0.01;
 
 /// Facets of curved parts whose nodes do not match are chords of different places: gaps are uncertain by the chords' height. Pressure comes from
 /// the interference, or from what the gap differs by where bodies meet: over `rows`, those that press; none: over all.
@@ -168,32 +169,36 @@ void see_dependent(const Solution& solution, std::vector<std::string>& all) {
                      " balance each other in part: pressure and shear there are not unique, the method decides; displacements and the force on each node are"));
 }
 
-/// A rotation whose square, which small displacements neglect, is a thousandth.
-constexpr double kGreatRotation = 0.03;
+/// Strains and rotations (of 1, and in radians) beyond which the equations, those of small ones, are off by as much as one cares for.
+constexpr double kGreat = 0.05;
+/// Shares of a body that speak for it, whatever cells at corners and ends of contact do: cells with half of its energy, or a tenth of its size.
+constexpr double kOfEnergy = 0.5, kOfSize = 0.1;
 
-/// Where the body's mean rotation is beyond what small displacements allow. `u`: nodes × dimension.
-void see_rotation(const Body& body, const std::vector<double>& u, std::vector<std::string>& all) {
-  const int dim = body.dimension(), count = body.mesh->node_count();
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero(), mean = centre, moment = centre;
-  const auto vector = [&](const double* values) {
-    Eigen::Vector3d v = Eigen::Vector3d::Zero();
-    for (int i = 0; i < dim; ++i) v[i] = values[i];
-    return v;
+using elasticity::CellDeformation;
+
+/// The value that cells with such a share of the weight exceed.
+double exceeded(std::vector<CellDeformation> cells, double CellDeformation::*value, double CellDeformation::*weight, double share) {
+  std::ranges::sort(cells, std::greater(), value);
+  double left = 0;
+  for (const CellDeformation& cell : cells) left += share * cell.*weight;
+  for (const CellDeformation& cell : cells)
+    if ((left -= cell.*weight) <= 0) return cell.*value;
+  return 0;
+}
+
+/// Where strains or rotations are beyond what the equations are made for.
+void see_great(const Body& body, const std::vector<double>& u, std::vector<std::string>& all) {
+  if (body.unrefined) return;  // its cells are with the ranks
+  const std::vector<CellDeformation> cells = elasticity::cell_deformation(*body.mesh, body.material, u);
+  const auto see = [&](double CellDeformation::*value, double most, const std::string& what) {
+    if (most <= kGreat) return;
+    const auto cell = std::ranges::max_element(cells, {}, value) - cells.begin();
+    all.push_back(text("'", body.name, what, ", most at ", point_text(body.mesh->cell_centre(static_cast<int>(cell)).data(), body.dimension()),
+                       ": the equations are those of small strains and rotations, results are off by about as much"));
   };
-  for (int k = 0; k < count; ++k) {
-    centre += vector(body.mesh->point(k).data()) / count;
-    mean += vector(&u[static_cast<std::size_t>(k) * dim]) / count;
-  }
-  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
-  for (int k = 0; k < count; ++k) {  // the rotation nearest to u: Σ x × (u − ω × x) = 0
-    const Eigen::Vector3d x = vector(body.mesh->point(k).data()) - centre;
-    moment += x.cross(vector(&u[static_cast<std::size_t>(k) * dim]) - mean);
-    inertia += x.squaredNorm() * Eigen::Matrix3d::Identity() - x * x.transpose();
-  }
-  const double angle = dim == 2 ? std::abs(moment[2]) / inertia(2, 2) : algebra::Ldlt(inertia).solve(algebra::Vector(moment)).norm();
-  if (angle > kGreatRotation)
-    all.push_back(text("'", body.name, "' turns by ", angle, " (as a whole, in radians): equations of small displacements do not hold beyond about ",
-                       kGreatRotation));
+  const double strain = exceeded(cells, &CellDeformation::strain, &CellDeformation::energy, kOfEnergy), angle = exceeded(cells, &CellDeformation::rotation, &CellDeformation::measure, kOfSize);
+  see(&CellDeformation::strain, strain, text("' is strained by ", std::setprecision(2), 100 * strain, " % and more (where half of its energy is)"));
+  see(&CellDeformation::rotation, angle, text("' turns by ", std::setprecision(2), angle, " radians and more (a tenth of it)"));
 }
 
 }  // namespace
@@ -221,7 +226,7 @@ std::vector<std::string> doubts(const Solution& solution) {
   }
   if (solution.result().converged) see_dependent(solution, all);
   for (std::size_t b = 0; solution.result().converged && b < solution.scene().bodies.size(); ++b)
-    see_rotation(*solution.scene().bodies[b], solution.displacement(static_cast<int>(b)), all);
+    see_great(solution.body(static_cast<int>(b)), solution.displacement(static_cast<int>(b)), all);
   return all;
 }
 

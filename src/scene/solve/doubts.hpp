@@ -11,7 +11,8 @@ namespace dotyk::scene {
 /// what the scene asks for. One sentence each, without a capital and a full stop, that names body or contact, says how great the error is
 /// and what to do; mostly none. Costs a pass over contacts and materials; nothing is assembled.
 std::vector<std::string> doubts(const Scene& scene);
-/// The same when it is solved: of contacts what presses is looked at, not all that might; rotations beyond small displacements are added.
+/// The same when it is solved: of contacts what presses is looked at, not all that might; strains and
+/// rotations beyond small ones are added, which takes a pass over all cells.
 std::vector<std::string> doubts(const Solution& solution);
 
 /// "\n  warning: …" for each of them.

@@ -10,44 +10,34 @@ namespace dotyk::scene {
 
 namespace {
 
-/// By contact row: has it closed from a gap?
-std::vector<char> closed_on_the_way(const Solution& solution, std::size_t c) {
+/// Has a row of a contact closed from a gap, or opened from a fit, on the way from rest?
+bool closed_on_the_way(const Solution& solution, std::size_t c) {
   const Contact& contact = *solution.model().contacts[c];
   const double touching = contact::kTouching * contact.first.body->mesh->size();
-  std::vector<char> closed;
-  for (std::size_t k = 0; k < contact.rows.size(); ++k) {
-    const int r = solution.model().contact_row[c][k];
-    closed.push_back(r >= 0 && solution.active(r) && std::abs(contact.rows[k].gap) > touching);
-  }
-  return closed;
+  for (std::size_t k = 0; k < contact.rows.size(); ++k)
+    if (const int r = solution.model().contact_row[c][k]; r >= 0 && solution.active(r) && std::abs(contact.rows[k].gap) > touching) return true;
+  return false;
 }
 
-double force_of(const Solution& solution, const FrictionRows& rows) {
-  double size = 0;
-  for (int i = 0; i < rows.count; ++i) size = std::hypot(size, solution.result().state.lambda[rows.row[i]]);
-  return size;
+/// Is the solution at a part of the load that part of it? So it is with Coulomb friction and laws that are cones, where no gap closed.
+bool in_proportion(const problem::Problem& problem) {
+  const auto points = problem.friction_points();
+  const auto rows = problem.scalar_rows();
+  return std::all_of(points.begin(), points.end(), [](const problem::FrictionPoint& p) { return p.group.law->bound(p.k, 0) == 0; }) &&
+         std::all_of(rows.begin(), rows.end(), [](const problem::ScalarRow& row) { return row.law.unilateral() || row.law.linear_stiffness(row.k); });
 }
 
 }  // namespace
 
-std::optional<double> share_of_path(const Solution& solution) {
-  bool follows = false, by_others = false;
-  double stuck = 0, sum = 0;
-  for (std::size_t c = 0; c < solution.model().contacts.size(); ++c) {
-    if (solution.model().contacts[c]->tangential.kind != problem::SupportLaw::Kind::free) continue;  // springs have no memory
-    const std::vector<char> closed = closed_on_the_way(solution, c);
-    if (solution.model().friction[c].empty()) by_others = by_others || std::find(closed.begin(), closed.end(), 1) != closed.end();
-    for (const FrictionRows& rows : solution.model().friction[c]) {
-      const double force = force_of(solution, rows);
-      sum += force;
-      if (std::none_of(rows.cell.jumps.begin(), rows.cell.jumps.end(), [&](const contact::Term& jump) { return closed[static_cast<std::size_t>(jump.row)]; })) continue;
-      follows = true;
-      if (const auto& slips = solution.result().slipping; slips.empty() || !slips[rows.row[0]]) stuck += force;
-    }
-  }
-  if (sum > 0 && by_others) return 1;  // where bodies went before another contact stopped them is not known
-  if (!follows) return std::nullopt;
-  return sum > 0 ? stuck / sum : 0;
+bool follows_path(const Solution& solution) {
+  const problem::Problem& problem = solution.model().problem;
+  const auto points = problem.friction_points();
+  const bool rubs = std::any_of(points.begin(), points.end(), [&](const problem::FrictionPoint& p) {
+    return !solution.result().state.lambda.segment(p.first, p.group.components).isZero(0);
+  });
+  for (std::size_t c = 0; rubs && c < solution.model().contacts.size(); ++c)
+    if (closed_on_the_way(solution, c)) return true;
+  return false;
 }
 
 namespace {
@@ -79,7 +69,7 @@ double estimate_path_error(const Solution& solution, Monitor& monitor) {
   if (!solution.result().converged)
     throw InputError("the solution has not converged, so that path_error, which is of a solution, does not apply (" + solution.result().reason + ")");
   if (solution.follows()) throw InputError("path_error is of one load step from rest; this solution follows another: halve the steps and compare");
-  if (!share_of_path(solution)) return 0;
+  if (!follows_path(solution) && in_proportion(solution.model().problem)) return 0;
   const auto scene = as_solved(solution);
   const Model& model = solution.model();
   std::vector<Step> steps;
@@ -87,15 +77,10 @@ double estimate_path_error(const Solution& solution, Monitor& monitor) {
   const auto stepped = solve(scene, {}, {}, monitor, steps);
   if (!stepped->result().converged) throw InputError(text("path_error: ", Solution::kPathSteps, " load steps do not converge: ", stepped->result().reason));
   double apart = 0, sum = 0;
-  for (const auto& contact : model.friction)
-    for (const FrictionRows& rows : contact) {
-      double d = 0, size = 0;
-      for (int i = 0; i < rows.count; ++i) {
-        const double one = solution.result().state.lambda[rows.row[i]], many = stepped->result().state.lambda[rows.row[i]];
-        d = std::hypot(d, one - many), size = std::hypot(size, many);
-      }
-      apart += d, sum += size;
-    }
+  for (const problem::FrictionPoint& p : model.problem.friction_points()) {
+    const auto of = [&](const Solution& one) { return one.result().state.lambda.segment(p.first, p.group.components); };
+    apart += (of(solution) - of(*stepped)).norm(), sum += of(*stepped).norm();
+  }
   return sum > 0 ? apart / sum : 0;
 }
 

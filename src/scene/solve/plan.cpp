@@ -151,7 +151,7 @@ std::string describe(const Scene& scene) {
 }
 
 std::string plan(const Scene& scene) {
-  std::string out = "plan:";
+  std::string out = "plan: linear elasticity at rest, for small strains and rotations (a few per cent), contact of what faces each other before the load";
   int free = 0;
   for (const auto& body : scene.bodies) {
     const auto numbering = number(*body);

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <iomanip>
 #include <utility>
 
 #include "algebra/direct/stop_factoring.hpp"
@@ -174,10 +173,8 @@ class History {
     const auto solution = std::make_shared<Solution>(scene_, is_last ? std::move(model_) : without_stiffness(),
                                                      is_last ? nullptr : &model_.problem, std::move(result),
                                                      std::move(past));
-    if (const auto share = is_last && !solution->follows() && solution->result().converged ? share_of_path(*solution) : std::nullopt)
-      solution->add_reason(text("; one load step, while friction follows the path: of its force ", std::setprecision(3), 100 * *share,
-                                " % is at points that closed on the way and stick, or of bodies that another contact stopped on the way, where one step may be "
-                                "wrong; path_error() says how far from eight"));
+    if (is_last && !solution->follows() && solution->result().converged && follows_path(*solution))
+      solution->add_reason("; one load step from rest, while friction follows the path of the load: path_error() compares it with eight");
     solution->set_total(watch_.seconds());
     clock_ = solution->clock();
     last_ = solution;

@@ -77,7 +77,7 @@ void bind_help(Library& library) {
 }  // namespace
 
 void bind_all(Library& library) {
-  library.module("dotyk", "Unilateral contact problems: describe bodies and contacts, solve, look.");
+  library.module("dotyk", "Unilateral contact problems: describe bodies and contacts, solve, look. Strains and rotations are small: no finite sliding, no buckling, no rubber squeezed flat.");
   for (const auto bind :
        {bind_help, bind_material, bind_mesh, bind_refinement, bind_body, bind_scene, bind_solver, bind_ranks, bind_repeated, bind_shape, bind_solution,
         bind_figure, bind_program, bind_fclib, bind_law, bind_beam, bind_channel, bind_thermoelastic, bind_beam_figure, bind_plate, bind_lua})

@@ -95,8 +95,8 @@ void bind_work_precision(Library& library) {
                "up to the factor √(|J̄|/½|ū|²_E), where u minimises J (not with Coulomb's friction). displacement: in L2 (beams and plates: of the "
                "deflection). pressure: in L2 over the contacts. peak_pressure: |max p/max p̄ − 1|. A function gets the solution and "
                "what the scene's function returned after the scene: without a reference it returns the error itself, with one a value "
-               "to be compared with the number or with its value for the reference solution. The finest reference is one level beyond the "
-               "last, solved by dotyk.solve: where the error halves with each level, that of the last is shown 13 % too small.",
+               "to be compared with the number or with its value for the reference solution. The reference is one level finer than the "
+               "last, solved by dotyk.solve: if errors halve per level, the last level's error is reported 13 % too small.",
        .example = "dotyk.work_precision{ levels = 3, methods = { dotyk.solver.pdas{}, dotyk.solver.interior_point{} }, scene = function(level)\n"
                   "  local b = dotyk.body{ mesh = dotyk.mesh.rectangle{ from = {0,0}, to = {1,1}, cells = { 8 << level, 8 << level } },\n"
                   "    material = dotyk.material{ E = 1000, nu = 0.3 } }\n"

@@ -20,7 +20,7 @@ std::string wrapped_signature(std::string text) {
 std::string facts(const Key& key) {
   auto text = key.expected();
   if (!key.units.empty()) text += ", " + key.units;
-  if (key.needed) return text;
+  if (key.needed || key.name.empty()) return text;  // of an item the list says whether it is needed
   return text + (key.default_text.empty() ? "; optional" : "; default " + key.default_text);
 }
 

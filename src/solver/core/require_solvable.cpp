@@ -59,19 +59,21 @@ std::string unnoticed_motions(const problem::RigidMotions& rigid, const algebra:
   return names.size() == count ? all(names) : text(count, " motions, one of them ", describe(rigid.motions, first));
 }
 
-/// What would stop a motion: for a single mode the support that holds it, by body and direction.
-std::string what_would_hold(const std::vector<problem::BodyMotion>& motions, const algebra::Vector& amounts) {
-  Eigen::Index mode;
-  const double greatest = amounts.cwiseAbs().maxCoeff(&mode);
-  if (motions.empty() || amounts.cwiseAbs().sum() > (1 + 1e-6) * greatest)
-    return "Fix, slide or spring a part, add a contact in its way, or turn the load";
-  const auto& [body, motion] = motions[mode];
+/// What would stop a motion: of one body the support that holds it, by body and direction.
+std::string what_would_hold(const std::vector<problem::BodyMotion>& modes, const algebra::Vector& amounts) {
+  const std::vector<problem::BodyMotion> motions = told(modes, amounts);
+  if (motions.size() != 1) return "Fix, slide or spring a part, add a contact in its way, or turn the load";
+  const auto& [body, motion, sum] = motions.front();
   if (motion.kind == Motion::Kind::rotation)
-    return "Fix or spring a part of '" + body + "' away from the axis, add a contact in its way, or turn the load";
-  const std::string axis = motion.direction_text();
-  return text("Hold '", body, "' along ", axis, " (", along_axis(motion.direction) ? "fix \"" + axis + "\"" : "a slide",
-              " or a spring on a part of it), add a contact in its way on the side of ",
-              amounts[mode] > 0 ? "greater " : "lesser ", axis, ", or turn the load");
+    return "Fix or spring a part of '" + body + "' away from the " + (motion.direction.empty() ? "point" : "axis") + ", add a contact in its way, or turn the load";
+  std::string axis = motion.direction_text(), way = "";
+  if (along_axis(motion.direction)) {
+    way = axis[0] == '-' ? " on the side of lesser " : " on the side of greater ";
+    if (axis[0] == '-') axis.erase(0, 1);
+    way += axis;
+  }
+  return text("Hold '", body, "' along ", axis, " (", way.empty() ? "a slide" : "fix \"" + axis + "\"", " or a spring on a part of it), add a contact in its way", way,
+              ", or turn the load");
 }
 
 }  // namespace
@@ -113,7 +115,7 @@ KnownBefore require_solvable(const problem::Problem& problem, const problem::Rig
     note = text(coulomb ? "a solution may be moved by " : "unique up to ", unnoticed_motions(rigid, s.motion), rigid.unnoticed.cols() == 0 ? ""
                 : coulomb ? ", which no support or contact notices: the displacement is the least"
                           : ", which no support or contact notices: the stress is unique, the displacement is the least");
-  if (s.limit) note += text(note.empty() ? "" : "; ", "a limit case: turned by 1e-6, the load has no solution");
+  if (s.limit) note += text(note.empty() ? "" : "; ", "a limit case: turned by 1e-6 (in radians), the load has no solution");
   return {note, true};
 }
 

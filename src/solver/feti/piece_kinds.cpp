@@ -121,11 +121,7 @@ Vector on_pieces(const TornProblem& torn, const std::vector<Batch>& batches, con
 }
 
 void refuse_singular(const Piece& piece, int unknown) {
-  throw InputError(text(
-      "the stiffness of ", piece.name, " is singular",
-      unknown >= 0 ? text(" (node ", (*piece.node)[unknown] + 1, " is not held)") : "",
-      piece.kernel->cols() > 0 ? text(" beyond its ", piece.kernel->cols(), " rigid motions") : "",
-      ": a material, spring or mesh value is out of range, or cells hang together at single nodes only"));
+  problem::refuse_singular(piece.name, piece.kernel->cols(), unknown >= 0 ? (*piece.node)[unknown] : -1);
 }
 
 }  // namespace dotyk::solver

@@ -241,7 +241,7 @@ void bind_feti(Library& library) {
                             "fixed (SMALBE-M), of rho with M fixed (the paper's algorithm 4.1), or whichever holds it up").into<Feti>(outer(&Smalbe::update)),
        key::positive("M", "an inner minimisation ends at |projected gradient| <= M |G lambda - e|; in units of |PFP|").into<Feti>(outer(&Smalbe::M)),
        key::positive("rho", "penalty of G lambda = e, at first; in units of |PFP|").below(1e10).into<Feti>(outer(&Smalbe::rho)),
-       key::choice<Stop>("stop", {{"Pd", Stop::Pd}, {"d", Stop::d}}, "what tol compares the projected gradient with; d, the paper's, depends on the generalised "
+       key::choice<Stop>("stop", {{"Pd", Stop::Pd}, {"d", Stop::d}}, "what tol compares the projected gradient with: |P d|, or |d| as the paper; that depends on the generalised "
                           "inverse, and then nothing is asked of what a subdomain's forces leave unbalanced but |G lambda - e|").into(&Feti::stop),
        key::positive("eta", "first bound of algorithm 4.1 on |G lambda - e|, beyond which rho grows, in units of |P d|/|PFP|; for other "
                       "updates on the projected gradient, in units of |P d|").into<Feti>(outer(&Smalbe::eta)),
@@ -301,8 +301,8 @@ void bind_methods(Library& library) {
        .example = "local s = dotyk.solver.newton{ tol = 1e-10 }:solve(scene)"},
       {key::positive("rho", "weight of slip and gap against force in the projections; multiplies the stiffness "
                               "that each row sees").into(&Newton::rho),
-       key::boolean("watch", "history[k].singular_value exactly; else estimated from the factors, right up to the "
-                              "root of the number of rows").into(&Newton::watch),
+       key::boolean("watch", "true: history[k].singular_value is exact; false: an estimate from the factors, off by at most "
+                              "the square root of the number of rows").into(&Newton::watch),
        key::integer("seed", "start at random multipliers, the same for the same seed: in a box from a tenth to a "
                              "hundred times the size of those with everything stuck").within(0, 4294967295.0)
             .otherwise("start with all that touches stuck").into(&Newton::seed)},

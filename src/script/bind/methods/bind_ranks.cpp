@@ -7,9 +7,9 @@ namespace dotyk::script {
 void bind_ranks(Library& library) {
   library.function(
       {.name = "dotyk.ranks",
-       .help = "Shares the work of multigrid's solvers with other processes on this machine, which are started so that there are `count`, and tells how many "
-               "there are. This one goes on with the script, or the prompt. Call it before the first solution by multigrid. Under mpirun it starts nothing: the count is mpirun's. dotyk --ranks COUNT FILE, and mpirun -n "
-               "COUNT ./dotyk FILE, which also knows other machines, do the same from outside. All else, and systems of less than 1000 unknowns a rank, "
+       .help = "dotyk.ranks(4) lets multigrid use 4 processes on this machine and returns the number in use. Call it before the first solve by multigrid. This process goes on with the script, "
+               "or the prompt. Under mpirun it starts nothing: the count is mpirun's. dotyk --ranks COUNT FILE, and mpirun -n "
+               "COUNT ./dotyk FILE, which also knows other machines, do the same from outside. Everything else, and systems of less than 1000 unknowns a rank, "
                "run on this process alone. The default method is chosen for one process: name dotyk.solver.multigrid{}. For bodies with refine it is the default. Where one process dies or runs out of "
                "memory, all end. OPENBLAS_NUM_THREADS=1 keeps BLAS in each of them to one thread.",
        .example = "print(dotyk.ranks())",

@@ -233,7 +233,7 @@ void bind_solver(Library& library) {
   library.module("dotyk.solver", "Methods. Each is made with its options and then solves scenes.");
   bind_methods(library);
   library.function({.name = "dotyk.solve",
-                    .help = std::string("Solves a scene by the method its plan names, without contact by one linear solve, or a beam. ") + kSteps,
+                    .help = std::string("Solves a scene, beam or plate. The method is the one that scene:plan() names; without contact it is one linear solve. ") + kSteps,
                     .setup = setup::pressed_block(),
                     .example = "local s = dotyk.solve(scene)\nlocal again = dotyk.solve(scene, { start = s })\n"
                                "local h = dotyk.solve(scene, { steps = { { load = 0.5 }, { load = 1 } } })\nprint(s)",

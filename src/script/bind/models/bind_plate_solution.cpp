@@ -154,7 +154,7 @@ void bind_plate_solution(Library& library) {
       .method({.name = "plate_solution:moment",
                .help = "Bending moments per length, -D[(1 - nu) u_ij + nu Δu δ_ij]: xx, yy, xy, and the two principal ones. Means of the cells about each node, linear between.",
                .example = "print(s:moment(0.5, 0.5).xx)", .arguments = plane_point_keys(), .run = moment})
-      .method({.name = "plate_solution:motion", .help = "Where the solution is not the only one (s.family): the motion by which others differ, at a point; its greatest is 1. Else 0.",
+      .method({.name = "plate_solution:motion", .help = "Where s.family is not nil: the motion that may be added, at a point; its greatest value is 1. Else 0.",
                .example = "print(s:motion(0.5, 0.5))", .arguments = plane_point_keys(), .run = motion})
       .method({.name = "plate_solution:reaction",
                .help = "What a part of the edge does to the plate: force (upwards), length, how much of it is open, and points in order along the edge: x, y, at (along the edge), piece, "

@@ -213,8 +213,8 @@ void bind_part(Library& library) {
                .arguments = {key::table(joined(component_keys("displacement, a number or a function of the coordinates", "length"), {load_case()}))},
                .run = displace})
       .method({.name = "part:load",
-               .help = "A load per length (2-D) or area (3-D), constant or a function of the coordinates that returns "
-                       "its components. Loads add up.",
+               .help = "A load per length (2-D) or area (3-D): a table of its components, or a function of the coordinates that returns "
+                       "them. Loads add up. A total force F on a part of length or area A is the load F/A.",
                .example = "top:load{ 0, -10 }\ntop:load(function(x, y) return 0, -x end)\ntop:load({ 4, 0 }, \"shear\")",
                .arguments = {key::field("traction", "its components").unit("force/length (2-D), force/area (3-D)").required(), load_case()},
                .run = load_part})
@@ -283,8 +283,8 @@ void bind_body(Library& library) {
                          key::object<MeshHandle>("mesh", "its shape at rest").required(),
                          key::object<Material>("material", "what it is made of").required(),
                          key::field("force", "force per volume, its components").unit("force/volume").otherwise("none"),
-                         key::integer("refine", "how often all cells are cut, into 4 in the plane, 8 in space, as by mesh:refined; E and nu are those of the cells before, a force is linear in each. "
-                                                "Several ranks cut them where they work, so that none has the whole mesh: only multigrid solves such a body, all bodies of a scene are cut as often, and pictures show its boundary. Curved sides of meshes of order 1 remain polygons").within(0, 10).otherwise("0")})},
+                         key::integer("refine", "how often every cell is halved in each direction, as by mesh:refined; E and nu are those of the cells before, a force is linear in each. "
+                                                "With several ranks each refines its own share, none has the whole mesh, and only multigrid can solve. All bodies of a scene are refined as often, and pictures show the boundary. Curved sides of meshes of order 1 remain polygons").within(0, 10).otherwise("0")})},
                     .run = make_body});
   library.type<Body>("An elastic body with its supports and loads.")
       .setup(setup::block())

@@ -147,17 +147,16 @@ void bind_rigid(Library& library) {
                                               key::field("gap", "a number or a function of the coordinates").unit("length").required()})},
                     .run = rigid_gap});
   library.function({.name = "dotyk.rigid.plane",
-                    .help = "A rigid half-space. Its normal points out of it, towards the body.",
+                    .help = "A rigid half-space, a floor or a wall. Its normal points out of it, towards the body.",
                     .example = "local floor = dotyk.rigid.plane{ point = {0,0}, normal = {0,1} }",
                     .arguments = {key::table({key::vector("point", "a point of its surface").count(2, 3).unit("length").required(),
                                               key::vector("normal", "out of it").count(2, 3).required()})},
                     .run = rigid_plane});
   library.function({.name = "dotyk.rigid.ball",
-                    .help = "A rigid disc (2-D) or ball outside the body. On a flat part normal and gap are "
-                            "those of dotyk.rigid.gap; on a curved one the normal lies between the part's and the line to the centre, as between "
-                            "two curved parts. Gaps are measured with the body at rest.",
+                    .help = "A rigid disc (2-D) or ball outside the body. On a flat part gaps are along the part's normal; on a curved one along the mean of that "
+                            "and the line to the centre, as between two curved parts. Gaps are measured with the body at rest.",
                     .example = "local ball = dotyk.rigid.ball{ center = {0,1.5}, radius = 1 }",
-                    .arguments = {key::table({key::vector("center", "centre").count(2, 3).unit("length").required(),
+                    .arguments = {key::table({key::vector("center", "its middle").count(2, 3).unit("length").required(),
                                               key::positive("radius", "radius").unit("length").required()})},
                     .run = rigid_ball});
   library.type<Rigid>("A rigid obstacle.").text([](const Rigid& r) { return text(contact::name(r.shape), ", ", r.dimension, "-D"); });
@@ -177,11 +176,10 @@ void bind_contact(Library& library) {
       .field("name", "what messages call it", [](const Contact& c) { return c.name; })
       .field("rows", "number of contact conditions", [](const Contact& c) { return c.rows.size(); })
       .method({.name = "contact:inf_sup",
-               .help = "The stability constant of the contact's multipliers against the displacements of its bodies "
-                       "(inf-sup, Babuška–Brezzi): constant, the least b(mu, v)/(|v|_1 |mu|_-1/2) over multipliers, greatest over "
+               .help = "Stability constant of the contact's multipliers (inf-sup, Babuška–Brezzi). Near 1 is good; 0: some multipliers are not controlled. Gives constant, the least b(mu, v)/(|v|_1 |mu|_-1/2) over multipliers, greatest over "
                        "displacements; 0 where multipliers form a kernel that no displacement notices (kernel, its dimension; "
-                       "above_kernel, the least constant but 0); multipliers, h, H. About 1 is as good as it "
-                       "gets. Supports, meshes and multipliers enter, the material does not.",
+                       "above_kernel, the least constant but 0); multipliers, h, H. "
+                       "Supports, meshes and multipliers enter, the material does not.",
                .example = "print(contact:inf_sup{ part = \"normal\" }.constant)",
                .arguments = {key::table({key::choice<MultiplierPart>("part", {{"tangential", MultiplierPart::tangential}, {"normal", MultiplierPart::normal},
                                                                                 {"both", MultiplierPart::both}}, "which multipliers").into(&InfSupSettings::part),
@@ -196,17 +194,17 @@ void bind_contact(Library& library) {
 Key pairing_key() {
   using contact::Pairing;
   return key::choice<Pairing>("pairing", {{"matching", Pairing::matching}, {"node_to_segment", Pairing::node_to_segment}, {"mortar", Pairing::mortar}},
-                     "matching: nodes across from each other, refused where one has none. mortar: displacements of the second part in the mean over "
-                     "a node's surroundings, weighted with dual multipliers; a uniform pressure is exact. node_to_segment: at the "
-                     "node's foot; a uniform pressure is not exact. Curved parts that fit, meshed by chords that do not match, have gaps of the chords' "
-                     "heights (h²/8R), which count as they are: meshes of order 2 follow the curve").otherwise("matching where nodes match, else mortar");
+                     "how the displacement opposite a node is found. matching: that of the node there, refused where there is none. mortar: a weighted mean over "
+                     "the node's surroundings, exact for uniform pressure. node_to_segment: that at the foot point, not exact for uniform pressure. "
+                     "Facets of a curved part are chords. Where two curved parts fit and their nodes do not match, the gaps between the chords (height h²/8R) "
+                     "count as gaps; meshes of order 2 follow the curve").otherwise("matching where nodes match, else mortar");
 }
 
 }  // namespace
 
 void bind_scene(Library& library) {
   library.function({.name = "dotyk.scene",
-                    .help = "Bodies that are solved together. Add contacts with scene:contact and scene:glue.",
+                    .help = "Bodies that are solved together. Add contacts with scene:contact and scene:glue. The model is linear elasticity at rest: strains and rotations are small (s.warnings tells where they are not), and what touches is what faces each other before the load.",
                     .setup = setup::block(),
                     .example = "local scene = dotyk.scene{ block }\nprint(scene)",
                     .arguments = {key::table({}).with(key::object<scene::Body>("bodies", "the bodies"))},
@@ -217,12 +215,13 @@ void bind_scene(Library& library) {
       .field("contacts", "its contacts and glues, in order", &Scene::contacts)
       .field("dimension", "2 or 3", &Scene::dimension)
       .method({.name = "scene:contact",
-               .help = "Contact of two parts, or of a part with a rigid obstacle: unilateral and frictionless unless laws are given. These are told per length (2-D) "
-                       "or area (3-D) of the first part: along the normal of the gap as the bodies are deformed (compliance: asperities, one_sided_elastic: a "
-                       "coating, elastic: glue that yields, prescribed: bodies that slide on each other and never part, free: none), along the tangents of the slip. At a corner of the (first) part there is one condition for each adjoining side. "
-                       "Conditions, pressures and statuses are those of the first part's nodes: where nodes do not match, let the first be the "
-                       "part that the other covers and whose nodes supports leave free (of two meshes the coarser's nodes are taken whatever the order). "
-                       "On P2 and Q2 they are those of the facets' corners, in the mean about them.",
+               .help = "Contact of two parts, or of one part with a rigid obstacle. Default: no penetration, no friction. Laws are per length (2-D) or area (3-D) of the "
+                       "first part. The normal law depends on the gap of the deformed bodies (compliance: asperities, one_sided_elastic: a "
+                       "coating, elastic: glue that yields, prescribed: bodies that slide on each other and never part, free: none), the tangential law on the slip. "
+                       "At a corner of the (first) part there is one condition for each adjoining side. "
+                       "Conditions, pressures and statuses are at the first part's nodes. If nodes do not match, name first the part that the other covers and whose nodes "
+                       "supports leave free (of two meshes the coarser's nodes are taken in either order). "
+                       "On P2 and Q2 they are at the facets' corners, means over their surroundings.",
                .example = "local wall = dotyk.rigid.plane{ point = {1,0}, normal = {-1,0} }\n"
                           "local w = scene:contact{ upper:part \"right\", rigid = wall }\n"
                           "local c = scene:contact{ upper:part \"bottom\", lower:part \"top\", pairing = \"mortar\" }",
@@ -230,7 +229,7 @@ void bind_scene(Library& library) {
                                          tangential_key("a law of dotyk.friction, or of dotyk.law: free, prescribed(0), elastic, friction, in 2-D capped_elastic"),
                                          key::object<scene::Friction>("friction", "dotyk.friction.tresca(g) or dotyk.friction.coulomb(mu), short for tangential").otherwise("none"),
                                          key::object<Rigid>("rigid", "a rigid obstacle in place of the second part"),
-                                         key::field("gap", "added to the geometric gap, less than 0 for an interference (a press fit, a bolt that is tightened); a number or a function of the coordinates").unit("length").otherwise("0"),
+                                         key::field("gap", "added to the geometric gap: more than 0 for a clearance (a pin in a hole), less than 0 for an interference (a press or shrink fit, the preload of a bolt); a number or a function of the coordinates").unit("length").otherwise("0"),
                                          pairing_key(),
                                          key::choice<Multipliers>("multipliers", {{"nodal", Multipliers::nodal}, {"P1-P0", Multipliers::p1_p0}},
                                                      "nodal: a normal and a tangential force at each node. P1-P0: pressure continuous and piecewise "
@@ -241,8 +240,8 @@ void bind_scene(Library& library) {
                                          key::choice<CellEnds>("friction_ends", {{"own", CellEnds::own}, {"joined", CellEnds::joined}, {"bare", CellEnds::bare}},
                                                      "P1-P0 in the plane: the half cells at the ends of the contact line have friction of their own, "
                                                      "that of the next cell, or none (TR965 (2.14)). At a corner within the line they are always the next cell's").into(&Discretisation::ends),
-                                         key::boolean("interference", "the parts, or a rigid plane or ball and the part, may overlap at rest; else that is refused, "
-                                                      "where the first part's nodes see it: of two meshes name the finer one first").fallback(false)})
+                                         key::boolean("interference", "true allows parts to overlap at rest (press fits; how much is their place or gap); false makes an overlap "
+                                                      "at the first part's nodes an error: of two meshes name the finer one first").fallback(false)})
                                  .with(key::object<Part>("parts", "one part, or two").count(1, 2))},
                .run = add_contact})
       .method({.name = "scene:glue",
@@ -252,7 +251,7 @@ void bind_scene(Library& library) {
                .arguments = {key::table({pairing_key()}).with(key::object<Part>("parts", "the two parts").count(2))},
                .run = add_glue})
       .method({.name = "scene:plan",
-               .help = "What will be modelled, what is free to move, whether a solution exists, which method and why.",
+               .help = "What will be modelled and within which limits, what is free to move, whether a solution exists, which method and why.",
                .example = "print(scene:plan())",
                .run = [](Call& call) {
                  Watch watch(call.state(), "plan");
@@ -263,14 +262,14 @@ void bind_scene(Library& library) {
                .help = "Can supports and contacts carry the load? Looks at rigid motions only, solves nothing: verdict "
                        "(\"unique\" where that is proved, \"up to motion\", \"unknown\" before solving, \"unsolvable\"; without Coulomb friction "
                        "the stress is unique in all but the last), solvable (rigid bodies would be in balance: with Coulomb friction "
-                       "elastic ones may still find no pressure great enough; nil where neither was found out), limit (the least turn of the load "
-                       "makes it unsolvable), motion (what is free) and the load's work on it.",
+                       "elastic ones may still find no pressure great enough; nil where neither was found out), limit (true: turned by an angle of 1e-6, the load "
+                       "would be unsolvable, or solvable), motion (what is free) and the load's work on it.",
                .example = "print(scene:balance().verdict)",
                .run = balance})
       .method({.name = "scene:uniqueness",
-               .help = "Is there a solution, and only one? What is proved, in words (text) and as exists and unique. With Coulomb friction on "
-                       "bodies that are held: factor, the solution is unique for coefficients below this times the scene's (condenses "
-                       "the scene, as long as a solve; falls as the mesh is refined); nil where none is known.",
+               .help = "Is there exactly one solution? Gives text, and exists and unique where that is proved. With Coulomb friction on held bodies also factor: the solution is "
+                       "unique for coefficients of friction below factor times the scene's. This takes as long as a solve, and factor falls as the mesh is refined; nil "
+                       "where none is known.",
                .example = "print(scene:uniqueness().text)",
                .run = uniqueness})
       .text([](const Scene& s) { return scene::describe(s); });

@@ -111,7 +111,7 @@ Record place_record(const char* name, const mesh::Point& x, int dimension) {
 Record node_record(const scene::ContactNode& n, int dimension) {
   return place_record("contact node", n.x, dimension)
       .add({{"gap", n.gap}, {"pressure", n.pressure}, {"shear", components(n.shear, dimension)}, {"slip", components(n.slip, dimension)},
-            {"status", problem::status_name(n.status)}, {"force", n.force}, {"weight", n.weight}, {"normal", components(n.normal, dimension)}});
+            {"status", problem::status_name(n.status)}, {"force", n.force}, {"weight", n.weight}, {"normal", components(n.normal, dimension)}, {"centre", components(n.centre, dimension)}});
 }
 
 Record node_record(const scene::SupportNode& n, int dimension) {
@@ -185,7 +185,7 @@ void bind_solution(Library& library) {
       .field("method", "which method", [](const Solution& s) { return s.result().method; })
       .field("iterations", "how many", [](const Solution& s) { return s.result().iterations; })
       .field("reason", "why it ended", [](const Solution& s) { return s.result().reason; })
-      .field("warnings", "what makes the answer doubtful though the method has converged: a list of sentences, mostly empty",
+      .field("warnings", "what makes the answer doubtful though the method has converged, strains beyond small ones among it: a list of sentences, mostly empty",
              [](const Solution& s) { return scene::doubts(s); })
       .field("screw_moves", "magnetic screws moved because they pulled", [](const Solution& s) { return s.result().screw_moves; })
       .field("screws", "magnetic screws, first and after each move: rows, regularity (least over greatest singular value "
@@ -220,11 +220,12 @@ void bind_solution(Library& library) {
                .arguments = point_keys("the point at rest"),
                .run = stress})
       .method({.name = "solution:contact",
-               .help = "A contact's force on its first part and the part of it by friction (friction_force), area, "
-                       "max_pressure, the work dissipated by friction over all steps, counts of open, closed, stick and "
-                       "slip nodes, and nodes[i] with x y z gap pressure shear slip status. Shear is the friction per "
-                       "length or area on the first part; slip is the tangential jump since the beginning, status what "
-                       "the node did in this step.",
+               .help = "A contact's force on its first part and the part of it by friction (friction_force), area (where it presses: with Signorini's law the edge of contact is "
+                       "sought between nodes), max_pressure, the work dissipated by friction over all steps, counts of open, closed, stick and "
+                       "slip nodes, and nodes[i] with x y z gap pressure shear slip status force weight normal centre. Force is pressure times weight, the node's share of the "
+                       "length or area. Pressure and shear (the friction on the first part) are means over the node's surroundings: the values at centre, which at an "
+                       "end of the part is a third of the facet off the node. Slip is the tangential jump since the beginning, status what "
+                       "the node did in this step. The result is computed at each call: keep it in a variable.",
                .example = "local c = s:contact(contact)\nprint(c.max_pressure, c.nodes[1].status)",
                .arguments = {key::object<Contact>("contact", "what scene:contact returned").required()},
                .run = solution_contact})
@@ -246,9 +247,8 @@ void bind_solution(Library& library) {
                .arguments = {key::object<scene::Part>("part", "a supported part").required()},
                .run = solution_reaction})
       .method({.name = "solution:error_estimate",
-               .help = "A posteriori estimate of the error in the energy norm, the square root of twice the energy of strains, springs and "
-                       "elastic laws of supports (that of solution:distance); contact included. An error where the solve has not converged: "
-                       "it does not apply there. First the relative one, a number; then a record: absolute (of ‖u - u_h‖, √(force·length)), relative, its parts, whose squares add up to "
+               .help = "Gives the relative error estimate, and a table of its parts. Error if the solve has not converged. It is a posteriori, contact included, in the energy norm: the "
+                       "square root of twice the energy of strains, springs and elastic laws of supports (that of solution:distance). For cells of order 1 (P1, Q1). The table: absolute (of ‖u - u_h‖, √(force·length)), relative, its parts, whose squares add up to "
                        "absolute²: recovery (stress against recovered stress), bulk (equilibrium of the recovered stress inside cells), "
                        "jump (of its tractions where the material jumps), boundary (against loads and free boundaries), "
                        "contact_pressure and friction (against the contact's pressure and shear; friction also slip against its law), "
@@ -256,8 +256,8 @@ void bind_solution(Library& library) {
                .example = "local relative, parts = s:error_estimate()\nprint(relative, parts.contact_pressure, #parts.cells[1])",
                .run = error_estimate})
       .method({.name = "solution:moved",
-               .help = "Another member of a solution that is unique up to a rigid motion (its reason says which, and how far): the same with one body moved. "
-                       "Of all members a solve gives the one of least displacement. Refused where supports or laws do not allow the motion.",
+               .help = "Where s.reason says that a body can move rigidly without changing forces: the solution with that body moved. "
+                       "Of all such solutions a solve gives the one of least displacement. Refused where supports or laws do not allow the motion.",
                .example = "print(pcall(s.moved, s, { body = block, translation = {0.1, 0} }))",
                .arguments = {key::table({key::object<Body>("body", "which body").required(),
                                          key::vector("translation", "by which all of it moves").count(2, 3).unit("length").otherwise("none"),
@@ -266,7 +266,7 @@ void bind_solution(Library& library) {
                .run = moved})
       .method({.name = "solution:path_error",
                .help = "How far one load step from rest is from eight equal ones: the sum of |friction force - that after eight steps| "
-                       "over the nodes, relative. 0 where no node closed from a gap under friction: then steps change nothing. It costs eight "
+                       "over the nodes of contacts and supports, relative. 0 without solving where steps change nothing: Coulomb friction, no node closed from a gap. Else it costs eight "
                        "more solves with one factorisation, once. To be rid of it, solve in steps, and halve them until forces no longer change.",
                .example = "print(s:path_error())",
                .run = [](Call& call) {
@@ -274,15 +274,15 @@ void bind_solution(Library& library) {
                  return call.give(call.self<Solution>()->path_error(watch));
                }})
       .method({.name = "solution:distance",
-               .help = "How far it is from another solution of the same bodies and contacts, taken for exact (usually of a finer "
-                       "mesh, which should refine this one's: elsewhere its kinks are smoothed and the energy comes out too small), relative to that: energy (norm of the difference: the square root of twice the energy of "
+               .help = "Relative difference from another solution of the same bodies and contacts, taken for exact: usually on a finer "
+                       "mesh, which should refine this one's (elsewhere its kinks are smoothed and the energy comes out too small). Gives energy (norm of the difference: the square root of twice the energy of "
                        "strains, springs and elastic laws of supports), displacement (L2 over the bodies), and with "
                        "contact pressure (L2 over the contacts, at this solution's nodes) and peak_pressure.",
                .example = "local soft = dotyk.solver.penalty{ factor = 100 }:solve(scene)\nprint(soft:distance(s).energy)",
                .arguments = {key::object<Solution>("reference", "what is taken for exact").required()},
                .run = distance})
       .method({.name = "solution:write_contact",
-               .help = "Writes the contact nodes of all contacts as comma-separated values: contact, node, coordinates, gap, "
+               .help = "Writes (exports, saves) the contact nodes of all contacts as comma-separated values (CSV): contact, node, coordinates, gap, "
                        "pressure, force, weight, components of shear and slip, status.",
                .example = "s:write_contact \"contact.csv\"",
                .arguments = {key::file("file", "where to").written().required()},
