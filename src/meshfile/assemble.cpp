@@ -66,6 +66,17 @@ void note_order(const std::vector<const Block*>& blocks, int order, std::vector<
     notes.push_back(text(greatest > least ? "some of " : "", "its elements are of order 1; nodes are put in the middle of their straight sides"));
 }
 
+/// What becomes of the file's groups, where that is not one region or part for each.
+void note_groups(const Contents& c, int dim, std::vector<std::string>& notes) {
+  std::map<std::pair<int, std::string>, int> count;
+  for (const Group& g : c.groups) ++count[{g.dimension, g.name}];
+  for (const auto& [group, n] : count) {
+    const auto& [of, name] = group;
+    if (of < dim - 1) notes.push_back(text("group '", name, "' is of ", of == 0 ? "points" : "lines", "; it is neither a region nor a part of the boundary"));
+    else if (n > 1) notes.push_back(text(of == dim ? "region '" : "part '", name, "': ", n, " groups of the file have this name; it is all of them"));
+  }
+}
+
 /// Two facets have the same corners: do they list them in opposite directions?
 bool opposite(const mesh::Mesh& mesh, mesh::Facet f, mesh::Facet g) {
   const int n = mesh.topology().facet_corners, first = mesh.facet_node(f, 0);
@@ -145,6 +156,7 @@ Loaded assemble(const Contents& contents, const Choice& choice, const std::strin
   const mesh::FacetTable table(loaded.mesh);
   refuse_overlaps(loaded.mesh, table, what);
   note_order(blocks, choice.order, loaded.notes);
+  note_groups(contents, dim, loaded.notes);
   add_parts(contents, table, number, regions.empty(), loaded);
   std::set<std::string> in;
   for (const Block* b : blocks)

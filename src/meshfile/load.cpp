@@ -13,11 +13,11 @@
 #include <fstream>
 
 #include "base/error.hpp"
-#include "base/in_quotes.hpp"
 #include "base/memory.hpp"
 #include "base/readable_file.hpp"
 #include "base/text.hpp"
 #include "meshfile/mfem.hpp"
+#include "meshfile/msh.hpp"
 #include "reader/process.hpp"
 
 namespace dotyk::meshfile {
@@ -41,30 +41,9 @@ std::string content(const std::string& file) {
   return all;
 }
 
-/// "$MeshFormat" as the very first word, or after comments, then the version. Checked here, because Gmsh takes what does
-/// not begin so for a script in its language, and runs it.
-void check_gmsh_header(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::string word;
-  if (in.peek() != '$') throw InputError(file + ": this is no Gmsh mesh: it does not begin with $MeshFormat");
-  in >> word;
-  if (word == "$Comments")
-    while (in && word != "$MeshFormat") in >> word;
-  if (word == "$NOD") throw InputError(file + ": this is a Gmsh mesh of version 1; save it as version 4.1 or 2.2");
-  if (!in || word != "$MeshFormat") throw InputError(file + ": this is no Gmsh mesh: it does not begin with $MeshFormat");
-  std::string version;
-  in >> version;
-  double number = 0;
-  const auto [end, error] = std::from_chars(version.data(), version.data() + version.size(), number);
-  if (error != std::errc() || end != version.data() + version.size())
-    throw InputError(text(file, ": ", in_quotes(version), " where the version of the Gmsh mesh should be"));
-  if (!(number >= 2 && number < 2.3) && !(number >= 4 && number < 4.2))
-    throw InputError(text(file, ": this is a Gmsh mesh of version ", version.substr(0, 20), "; 2.0 to 2.2, 4.0 and 4.1 are read: save it as one of these"));
-}
-
 std::string gmsh_program() {
   return reader::require_program("dotyk_gmsh", "Gmsh's library: install it (apt-get install --no-install-recommends libgmsh-dev) "
-                                               "and build again; meshes in .mesh (MFEM) and .vtu (VTK) files are read without it");
+                                               "and build again; meshes in .msh files are read without it");
 }
 
 /// A name that Gmsh and VTK cannot take for an option.
@@ -73,10 +52,7 @@ std::string plain(const std::string& file) { return file[0] == '/' ? file : "./"
 Contents contents(const std::string& file, Monitor& monitor) {
   const std::string end = ending(file);
   if (end == ".mesh") return read_mfem(content(file), file);
-  if (end == ".msh") {
-    check_gmsh_header(file);
-    return read(output_of(gmsh_program(), {"load", plain(file)}, file, monitor));
-  }
+  if (end == ".msh") return read_msh(content(file), file);
   return read(output_of(reader::require_program("dotyk_vtu", "VTK's library"), {plain(file)}, file, monitor));
 }
 
@@ -87,7 +63,7 @@ std::string exact(double value) {
 }
 
 Loaded mesh_file(const std::string& file, const Meshing& meshing, const Choice& choice, const std::string& what, Monitor& monitor) {
-  const std::vector<std::string> arguments{"mesh", plain(file), std::to_string(meshing.dimension), exact(meshing.size), std::to_string(choice.order)};
+  const std::vector<std::string> arguments{plain(file), std::to_string(meshing.dimension), exact(meshing.size), std::to_string(choice.order)};
   const std::string answer = output_of(gmsh_program(), arguments, what, monitor);
   if (answer.empty()) throw InputError(what + ": Gmsh ended without a mesh; does the geometry say Exit?");  // which ends the program
   return assemble(read(answer), choice, what);

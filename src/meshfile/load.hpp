@@ -8,9 +8,8 @@
 
 namespace dotyk::meshfile {
 
-/// Reads a mesh by the file's ending: .msh (Gmsh 2 and 4, text or binary, by Gmsh's library, where dotyk was
-/// built with it), .mesh (MFEM mesh v1.0, text), .vtu (VTK, by its library: cell data "region", or "body" as dotyk
-/// writes it, give the regions). See assemble() for what becomes of the contents, and for `choice`. Throws InputError naming the file, and
+/// Reads a mesh by the file's ending: .msh (Gmsh 2 and 4, text or binary), .mesh (MFEM mesh v1.0, text), .vtu (VTK, by its
+/// library: cell data "region", or "body" as dotyk writes it, give the regions). See assemble() for what becomes of the contents, and for `choice`. Throws InputError naming the file, and
 /// Interrupted where the monitor asks to stop.
 Loaded load(const std::string& file, const Choice& choice, Monitor& monitor);
 

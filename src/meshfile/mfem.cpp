@@ -2,65 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <map>
 
-#include "base/error.hpp"
-#include "base/in_quotes.hpp"
-#include "base/text.hpp"
+#include "meshfile/words.hpp"
 
 namespace dotyk::meshfile {
 namespace {
-
-/// The words of a text, without comments (# to the end of the line).
-class Words {
- public:
-  Words(std::string_view text, std::string what) : left_(text), what_(std::move(what)) {}
-
-  std::string_view next() {
-    while (!left_.empty()) {
-      if (left_.front() == '#') left_.remove_prefix(std::min(left_.find('\n'), left_.size()));
-      else if (space(left_.front())) skip();
-      else break;
-    }
-    std::size_t n = 0;
-    while (n < left_.size() && !space(left_[n]) && left_[n] != '#') ++n;
-    const std::string_view word = left_.substr(0, n);
-    left_.remove_prefix(n);
-    return word;
-  }
-
-  template <class Number>
-  Number number(const char* of) {
-    const std::string_view word = next();
-    Number value{};
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (word.empty()) fail(text("it ends where ", of, " should be"));
-    if (error != std::errc() || end != word.data() + word.size())
-      fail(text(in_quotes(word), " where ", of, " should be"));
-    return value;
-  }
-
-  /// Of things that take two characters each at least.
-  int count(const char* of) {
-    const auto n = number<long long>(of);
-    if (n < 0 || n > static_cast<long long>(left_.size())) fail(text(n, " as ", of, "; the file is too short for that"));
-    return static_cast<int>(n);
-  }
-
-  [[noreturn]] void fail(const std::string& why) const { throw InputError(text(what_, ", line ", line_, ": ", why)); }
-
- private:
-  static bool space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
-  void skip() {
-    line_ += left_.front() == '\n';
-    left_.remove_prefix(1);
-  }
-
-  std::string_view left_;
-  std::string what_;
-  long line_ = 2;  // the first is read already
-};
 
 Shape shape(Words& words) {
   // Geometry types of mesh/geom.hpp; 0 is a point.
@@ -171,10 +118,9 @@ void read_vertices(Words& words, Contents& contents, const std::vector<std::size
 }  // namespace
 
 Contents read_mfem(std::string_view all, const std::string& what) {
-  const std::string_view first = all.substr(0, all.find_first_of("\r\n"));
-  if (first != "MFEM mesh v1.0") throw InputError(text(what, ": its first line is ", in_quotes(first), "; 'MFEM mesh v1.0' is expected"));
-  all.remove_prefix(std::min(first.size() + (all.substr(first.size(), 2) == "\r\n" ? 2 : 1), all.size()));
   Words words(all, what);
+  const std::string_view first = words.line();
+  if (first != "MFEM mesh v1.0") throw InputError(text(what, ": its first line is ", in_quotes(first), "; 'MFEM mesh v1.0' is expected"));
   Contents contents;
   std::vector<std::size_t> elements, boundary;  // their blocks
   int dimension = 0;

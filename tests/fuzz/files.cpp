@@ -128,7 +128,6 @@ int main(int count, char** words) {
   for (; clock.seconds() < seconds; ++seed) {
     Mutation mutation(seed);
     const Seed& one = all[mutation.below(all.size())];
-    if (one.ending == ".msh" && mutation.below(20) != 0) continue;  // Gmsh takes time to start
     const std::string content = mutation(one.content, all[mutation.below(all.size())].content);
     const std::string name = "fuzz" + (one.ending == ".lcp" || one.ending == ".fc" ? std::string(".dat") : one.ending);
     machine.begin(text("file_", seed));

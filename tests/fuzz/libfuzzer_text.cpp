@@ -16,6 +16,7 @@
 #include "fclib/contact_problem.hpp"
 #include "meshfile/contents.hpp"
 #include "meshfile/mfem.hpp"
+#include "meshfile/msh.hpp"
 #include "program/lcp.hpp"
 #include "program/program_file.hpp"
 
@@ -48,6 +49,9 @@ void read(unsigned reader, std::string_view text) {
     case 3:
       fclib::read_text(file_of(text));
       break;
+    case 4:
+      meshfile::read_msh(text, "file");
+      break;
     default:
       meshfile::read(text);
   }
@@ -58,7 +62,7 @@ void read(unsigned reader, std::string_view text) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   try {
-    read(data[0] % 5u, {reinterpret_cast<const char*>(data) + 1, size - 1});
+    read(data[0] % 6u, {reinterpret_cast<const char*>(data) + 1, size - 1});
   } catch (const std::exception&) {
   }
   return 0;

@@ -6,7 +6,7 @@ if not folder then return end
 
 local function counts(m) return { m.node_count, m.cell_count, #m.parts, #m.regions, #m:pieces() } end
 
-if not require "without_gmsh" then
+do
   for name, expected in pairs{
     gear1 = { 2562, 1920, 8, 8, 1 }, gear2 = { 2562, 1920, 8, 8, 1 },
     gear1_2D = { 1302, 1180, 12, 16, 1 }, gear2_2D = { 1157, 1036, 12, 16, 1 },  -- 14 groups of lines, two of them inside

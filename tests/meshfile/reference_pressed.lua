@@ -39,8 +39,8 @@ local function press(mesh, about)
 end
 
 local files <const> = { serac = { "twohex_for_contact.mesh", "beam-hex-with-contact-block.mesh", "ironing.mesh", "twosquare.mesh" },
-                        tribol = { "two_hex.mesh", "two_hex_apart.mesh", "two_hex_overlap.mesh" } }
-if not require "without_gmsh" then files.getfem_gears = { "gear1.msh", "gear2.msh", "gear1_2D.msh", "gear2_2D.msh", "static_contact_planetary_1.msh" } end
+                        tribol = { "two_hex.mesh", "two_hex_apart.mesh", "two_hex_overlap.mesh" },
+                        getfem_gears = { "gear1.msh", "gear2.msh", "gear1_2D.msh", "gear2_2D.msh", "static_contact_planetary_1.msh" } }
 for from, names in pairs(files) do
   for _, name in ipairs(names) do
     local first <const> = dotyk.mesh.load(folder .. from .. "/" .. name):pieces()

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "meshfile/contents.hpp"
+
+namespace dotyk::meshfile {
+
+/// Reads Gmsh's MSH format, versions 2.0 to 2.2, 4.0 and 4.1, text or binary, from the whole file: groups are the physical
+/// groups; an element is of those that the file says it is of itself (version 2), or its entity (version 4). See Gmsh's
+/// reference manual, "Gmsh file formats".
+///
+/// Throws InputError, beginning with `what` and the line: not such a file, another version, or what stands there does not
+/// make nodes and elements: numbers of them that are not those the file says, nodes that are not there or there twice, types
+/// of elements that are not known.
+Contents read_msh(std::string_view all, const std::string& what);
+
+}  // namespace dotyk::meshfile
