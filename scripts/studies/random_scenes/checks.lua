@@ -1,14 +1,16 @@
--- Is a state that a method calls converged a solution? Checks of the scenes of scripts/studies/random_scenes.lua from nodal output and from
--- loads integrated there. Loaded by include; returns check(scene, made, solution), a list of what is wrong.
+-- Is a state that a method calls converged a solution? Checks of the scenes of scripts/studies/random_scenes.lua from nodal output, from
+-- loads integrated there, and from nodal forces of an assembly of its own (nodes.lua). Loaded by include; returns
+-- check(scene, made, solution, before), a list of what is wrong; `before` is the solution of the step before in a history.
 --
--- Tolerances. Methods end at a natural residual of 1e-10 of the greatest force and lose some digits where stiffnesses differ by six
--- orders: forces count as known to 1e-6 of the greatest pressure, displacements to 1e-6 of the greatest one; where nothing is pressed,
--- forces to 1e-9 of the stiffness. Displacements count as known to 1e-14 of the size, which is what rounding leaves of a gap across an
--- inclined plane. A node's force is known to 1e-9 of the greatest stress on the scene's section, which may be much as a pressure where
--- the node's share of the area is small. Rounding of large motions is 1e-12 of the forces that strains of their size would make.
+-- Tolerances. Methods end at a natural residual of 1e-10 of the greatest force and lose some digits where stiffnesses differ by eight
+-- orders: forces count as known to 1e-6 of the greatest pressure, displacements to 1e-6 of the greatest one (`accuracy`: a scene that asks
+-- for less says so), but never to more than that part of what the data of the scene allow. Displacements count as known to 1e-14 of the
+-- size, which is what rounding leaves of a gap across an inclined plane. A node's force is known to 1e-9 of the greatest stress on the
+-- scene's section, which may be much as a pressure where the node's share of the area is small. Rounding of large motions is 1e-12 of the
+-- forces that strains of their size would make.
 
 local laws <const>, solids <const> = include "laws.lua", include "solids.lua"
-local accuracy <const> = 1e-6
+local nodes <const> = include "nodes.lua"
 
 local function dot(a, b)
   local sum = 0
@@ -18,36 +20,76 @@ end
 local function norm(a) return dot(a, a)^0.5 end
 local function point(scene, node) return { node.x, node.y, scene.dimension == 3 and node.z or nil } end
 
--- 1. Scales: the greatest pressure or traction, and the greatest displacement.
-local function scales(scene, contacts, supports, displacement)
-  local scale = { stress = 0 }
+-- 1. Scales: the greatest pressure or traction and the greatest displacement, within what the data of the scene allow: gaps, overlaps and
+-- prescribed displacements, loads, and these times stiffnesses and flexibilities, of bending where bodies are thin.
+local function allowed(scene)
+  local d <const>, size <const> = scene.dimension, scene.size
+  local flexible, stiff = 0, 0
+  local load, length = 0, scene.reach + (scene.curved_parts and size or 0)
+  local area <const> = size ^ (d - 1) * scene.small
+  local function spring(k) if k > 0 then flexible = flexible + 1 / (k * area) end end
   for _, body in ipairs(scene.bodies) do
-    for _, load in ipairs(body.loads) do scale.stress = math.max(scale.stress, norm(load.force) / scene.size^(scene.dimension - 1)) end
+    local least, most = math.huge, 0
+    for axis = 1, d do
+      local extent = body.high[axis] - body.low[axis]
+      least, most = math.min(least, extent), math.max(most, extent)
+    end
+    flexible = flexible + (most / least) ^ 3 / (body.E * least ^ (d - 2))
+    stiff = math.max(stiff, body.E * most ^ (d - 1) / least)
+    for _, given in ipairs(body.given) do if given.spring then spring(given.spring) end end
+    for _, at in ipairs(body.loads) do load = load + norm(at.force) end
   end
-  scale.length = math.max(displacement, 1e-8 * scene.size)
-  local function see(nodes)
-    for _, node in ipairs(nodes) do
+  for _, support in ipairs(scene.supports) do
+    for _, law in pairs(support.law or {}) do
+      if law.name == "load" then load = load + math.abs(law.numbers[1]) * size ^ (d - 1) end
+      if law.kind.k then spring(law.numbers[1]) end
+      if law.kind.k2 then spring(law.numbers[2]) end
+    end
+  end
+  local force <const> = 1e3 * (load + stiff * length) / scene.small
+  return { load = load / size ^ (d - 1), force = force, stress = force / area, length = 1e3 * (length + load * flexible) }
+end
+
+local function scales(scene, contacts, supports, displacement)
+  local most <const>, accuracy <const> = allowed(scene), scene.accuracy or 1e-6
+  local scale = { stress = most.load, length = math.max(displacement, 1e-8 * scene.size * scene.small), most = most }
+  local function see(list)
+    for _, node in ipairs(list) do
       scale.stress = math.max(scale.stress, math.abs(node.pressure), norm(node.shear))
       scale.length = math.max(scale.length, norm(node.slip))
     end
   end
   for _, contact in ipairs(contacts) do see(contact.nodes) end
   for _, support in ipairs(supports) do see(support.nodes) end
+  scale.length = math.min(scale.length, math.max(most.length, 1e-8 * scene.size))
+  if most.force == 0 then scale.stress = 1e-3 * scene.stiffest -- nothing is pressed
+  else scale.stress = math.min(scale.stress, most.stress) end
   scale.stress = math.max(scale.stress, 1e-6 * scene.stiffest * scale.length / scene.size)
-  if scale.stress < 1e-8 * scene.stiffest then scale.stress = 1e-3 * scene.stiffest end -- nothing is pressed
-  return { p = accuracy * scale.stress, u = accuracy * scale.length, stress = scale.stress, length = scale.length,
-    force = 1e-3 * accuracy * scale.stress * scene.size^(scene.dimension - 1) }
+  scale.accuracy, scale.p, scale.u = accuracy, accuracy * scale.stress, accuracy * scale.length
+  scale.force = 1e-3 * accuracy * scale.stress * scene.size ^ (scene.dimension - 1)
+  scale.node = scale.force
+  return scale
+end
+
+local function check_allowed(scale, nodal, wrong)
+  if not (nodal.displacement <= scale.most.length + scale.length) then
+    wrong("a displacement of %.3g, where the data allow %.3g", nodal.displacement, scale.most.length)
+  end
+  if scale.most.force > 0 and not (nodal.force <= scale.most.force) then
+    wrong("a nodal force of %.3g, where the data allow %.3g", nodal.force, scale.most.force)
+  end
 end
 
 -- 2. Laws. Friction: at most `bound`; below it no slip, against the slip where there is some. A slip known up to 10 tol.u
 -- has a direction known up to that / |slip|.
 local function check_friction(at, node, bound, tol, wrong, held)
-  local shear, slip = norm(node.shear), norm(node.slip)
+  local shear, moved = norm(node.shear), rawget(node, "moved") or node.slip
+  local slip = norm(moved)
   if shear > bound + tol.p then wrong("shear %.3g beyond its bound %.3g at %s", shear, bound, at) end
   if slip <= tol.u or held then return end
   if bound == math.huge then return wrong("slip %.3g where there is none at %s", slip, at) end
   local off = {}
-  for k, s in ipairs(node.slip) do off[k] = node.shear[k] + bound * s / slip end
+  for k, s in ipairs(moved) do off[k] = node.shear[k] + bound * s / slip end
   if norm(off) > tol.p + 10 * bound * tol.u / slip then
     wrong("slip %.3g, shear %.6g of %.6g, off by %.3g at %s", slip, shear, bound, norm(off), at)
   end
@@ -174,7 +216,7 @@ local function check_equilibrium(scene, made, solution, contacts, supports, tol,
   local sums, group = parts_of_equilibrium(scene)
   local extent = scene.extent
   for k, body in ipairs(scene.bodies) do
-    for _, load in ipairs(body.loads) do push(sums[group[k]], load.x, load.force, 1, extent) end
+    for _, load in ipairs(body.loads) do push(sums[group[k]], load.x, load.force, scene.factor or 1, extent) end
   end
   for k, contact in ipairs(scene.contacts) do
     for side, share in pairs{ first = 1, second = -1 } do
@@ -201,31 +243,34 @@ local function check_equilibrium(scene, made, solution, contacts, supports, tol,
   for k, sum in pairs(sums) do
     -- Beside the accuracy of forces: rounding of inner forces, a body's stiffness times its motion.
     local rounding = 1e-12 * scene.stiffest * tol.length * scene.size^(scene.dimension - 2) + 1e-9 * tol.gross
-    if not (norm(sum.force) <= accuracy * sum.gross + rounding) then -- also where it is not a number
+    if not (norm(sum.force) <= tol.accuracy * sum.gross + rounding) then -- also where it is not a number
       wrong("forces on b%d do not balance: %.3g of %.3g", k, norm(sum.force), sum.gross)
-    elseif sum.whole and norm(sum.moment) > accuracy * sum.gross_moment + rounding * extent then
+    elseif sum.whole and norm(sum.moment) > tol.accuracy * sum.gross_moment + rounding * extent then
       wrong("moments on b%d do not balance: %.3g of %.3g", k, norm(sum.moment), sum.gross_moment)
     end
   end
 end
 
--- The greatest displacement of the bodies' middles and their contact nodes.
-local function greatest_displacement(scene, made, solution)
-  local most = 0
-  for k, body in ipairs(scene.bodies) do
-    for _, x in ipairs(scene.samples(body)) do
-      most = math.max(most, norm{ solution:displacement(made.bodies[k], table.unpack(x)) })
-    end
+-- How far nodes have slipped in this step.
+local function slipped_since(result, before)
+  if not before then return end
+  for i, node in ipairs(result.nodes) do
+    node.moved = {}
+    for k, v in ipairs(node.slip) do node.moved[k] = v - before.nodes[i].slip[k] end
   end
-  return most
 end
 
-return function(scene, made, solution)
+return function(scene, made, solution, before)
   local complaints, contacts, supports = {}, {}, {}
   local function wrong(...) table.insert(complaints, (string.format(...))) end
-  for k in ipairs(scene.contacts) do contacts[k] = solution:contact(made.contacts[k]) end
+  for k in ipairs(scene.contacts) do
+    contacts[k] = solution:contact(made.contacts[k])
+    slipped_since(contacts[k], before and before:contact(made.contacts[k]))
+  end
   for k, support in ipairs(scene.supports) do supports[k] = support.law and solution:support(made.supports[k]) or { nodes = {} } end
-  local tol = scales(scene, contacts, supports, greatest_displacement(scene, made, solution))
+  local nodal = nodes(scene, made, solution, contacts, supports)
+  local tol = scales(scene, contacts, supports, nodal.displacement)
+  check_allowed(tol, nodal, wrong)
   for k, contact in ipairs(scene.contacts) do check_contact(scene, contact, contacts[k], tol, wrong) end
   for k, support in ipairs(scene.supports) do
     if support.law then check_support(support, supports[k], tol, wrong) end
@@ -244,9 +289,10 @@ return function(scene, made, solution)
   end
   -- Where loads meet their reactions at once nothing moves: forces count by what they would move the stiffest body by.
   local moved <const> = math.max(tol.length, tol.stress * scene.size / scene.stiffest)
-  tol.energy = (1e-9 * tol.gross + 1e-7 * rubbing) * moved + 1e-12 * scene.stiffest * tol.length^2 * scene.size^(scene.dimension - 2)
-  if tol.gross < 1e-6 * scene.stress then -- nothing is loaded
-    tol.energy = tol.energy + 1e-10 * scene.stiffest * scene.size^scene.dimension
+  tol.energy = tol.accuracy / 1e-6 * (1e-9 * tol.gross + 1e-7 * rubbing) * moved + 1e-12 * nodal.rounding
+  if tol.gross < 1e-6 * scene.stress * scene.size ^ (scene.dimension - 1) then -- nothing is loaded
+    tol.energy = tol.energy + 1e-10 * scene.stiffest * scene.size ^ scene.dimension
   end
+  nodal.run(tol, wrong)
   return complaints, tol
 end

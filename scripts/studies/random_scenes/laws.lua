@@ -8,18 +8,21 @@ local laws = {}
 local function clamp(x, low, high) return math.max(low, math.min(high, x)) end
 
 -- Each law: which numbers it has (stiffnesses k and k2, a bound g, a load f); its graph, r at v, on either side of its jumps; `bounds`:
--- the least and the greatest r, where they are not the number g.
+-- the least and the greatest r, where they are not the number g; its energy at v, 0 where none is given, r = -d energy / dv.
 local kinds = {
   prescribed = { graph = function(v) return v >= 0 and -math.huge or math.huge end, bounds = { -math.huge, math.huge } },
-  elastic = { k = true, graph = function(v, k) return -k * v end, bounds = { -math.huge, math.huge } },
-  one_sided_elastic = { k = true, graph = function(v, k) return k * math.max(-v, 0) end, bounds = { 0, math.huge } },
+  elastic = { k = true, graph = function(v, k) return -k * v end, bounds = { -math.huge, math.huge },
+              energy = function(v, k) return k * v * v / 2 end },
+  one_sided_elastic = { k = true, graph = function(v, k) return k * math.max(-v, 0) end, bounds = { 0, math.huge },
+                        energy = function(v, k) return k * math.min(v, 0) ^ 2 / 2 end },
   unequal_elastic = { k = true, k2 = true, graph = function(v, k, pull) return v < 0 and -k * v or -pull * v end,
-                      bounds = { -math.huge, math.huge } },
+                      bounds = { -math.huge, math.huge }, energy = function(v, k, pull) return (v < 0 and k or pull) * v * v / 2 end },
   signorini = { graph = function(v) return v >= 0 and 0 or math.huge end, bounds = { 0, math.huge } },
-  friction = { g = true, graph = function(v, g) return v >= 0 and -g or g end },
-  one_sided_friction = { g = true, graph = function(v, g) return v >= 0 and 0 or g end },
-  capped_elastic = { k = true, g = true, graph = function(v, k, g) return clamp(-k * v, -g, g) end },
-  load = { f = true, graph = function(_, f) return f end },
+  friction = { g = true, graph = function(v, g) return v >= 0 and -g or g end, energy = function(v, g) return g * math.abs(v) end },
+  one_sided_friction = { g = true, graph = function(v, g) return v >= 0 and 0 or g end, energy = function(v, g) return g * math.max(-v, 0) end },
+  capped_elastic = { k = true, g = true, graph = function(v, k, g) return clamp(-k * v, -g, g) end,
+                     energy = function(v, k, g) return math.abs(v) < g / k and k * v * v / 2 or g * math.abs(v) - g * g / (2 * k) end },
+  load = { f = true, graph = function(_, f) return f end, energy = function(v, f) return -f * v end },
 }
 
 -- A law of one of the names, { "name", weight, … }; `stiffness` and `stress` are what is usual in the scene.
@@ -47,6 +50,9 @@ function laws.distance(law, v, r, tv, tr)
   if r > high then return (r - high) / tr end
   return 0
 end
+
+-- What the law stores or dissipates on the way to v.
+function laws.energy(law, v) return law.kind.energy and law.kind.energy(v, table.unpack(law.numbers)) or 0 end
 
 -- The reactions that the law can reach, from and to.
 function laws.bounds(law)

@@ -14,10 +14,10 @@ local function support(scene, body, name, text, law)
 end
 
 -- No point of the side moves along these directions.
-local function constrain(scene, body, name, directions, springs)
+local function constrain(scene, body, name, directions, springs, weak)
   if not springs then body.holding = body.holding or {}; table.insert(body.holding, { side = name, directions = directions }) end
   for _, p in ipairs(g.points_of({ g.side_box(scene, body, name) }, g.corner)) do
-    for _, n in ipairs(directions) do table.insert(body.constraints, { x = solids.turn(scene, p.x), n = n }) end
+    for _, n in ipairs(directions) do table.insert(body.constraints, { x = solids.turn(scene, p.x), n = n, weak = weak }) end
   end
 end
 
@@ -54,7 +54,8 @@ end
 function act.displace(scene, body, name)
   if body.held > 0 or body.laws or body.taken.left or body.taken.right then return end
   body.held, body.displaced = 1, true
-  local u = scene.size * dice.power(-4, -2)
+  local u = scene.size * scene.small * dice.power(-4, -2)
+  scene.reach, scene.moved = scene.reach + u, scene.moved + u
   local components = scene.dimension == 2 and { "x", "y" } or { "x", "y", "z" }
   local direction = { 0, scene.dimension == 2 and -u or 0, -u }
   direction[1] = dice.chance(0.5) and 0 or u * dice.between(-1, 1)
@@ -65,9 +66,12 @@ function act.displace(scene, body, name)
 end
 
 function act.spring(scene, body, name)
-  local k = format(body.E / scene.size * dice.power(-3, 1))
+  local stiffness = body.E / scene.size * (scene.weak and dice.power(-16, -6) or dice.power(-3, 1))
+  local k = format(stiffness)
+  table.insert(body.given, { side = name, spring = stiffness })
   body.sprung = true
-  constrain(scene, body, name, axes(scene), true)
+  if scene.weak then scene.weakest = math.min(scene.weakest or 1, stiffness * scene.size / body.E) end
+  constrain(scene, body, name, axes(scene), true, scene.weak)
   support(scene, body, name, (":spring{ x = %s, y = %s%s }"):format(k, k, scene.dimension == 3 and ", z = " .. k or ""))
 end
 
@@ -100,6 +104,7 @@ function act.load(scene, body, name)
     for k = 1, scene.dimension do force[k] = p.weight * t[k] * (1 + slope * x[1]) end
     table.insert(body.loads, { x = x, force = force })
   end
+  table.insert(body.given, { side = name, traction = { table.unpack(t) }, slope = slope })
   part(scene, body, name)
   if slope == 0 then return say(scene, "%s:part%q:load(%s)", body.name, name, t) end
   for k, v in ipairs(t) do t[k] = ("%s * (1 + %s * x)"):format(format(v), format(slope)) end
@@ -113,12 +118,16 @@ function act.pressure(scene, body, name)
     for k = 1, scene.dimension do force[k] = -p.weight * value * n[k] end
     table.insert(body.loads, { x = solids.turn(scene, p.x), force = force })
   end
+  for k = 1, scene.dimension do n[k] = -value * n[k] end
+  table.insert(body.given, { side = name, traction = n, slope = 0 })
   part(scene, body, name)
   say(scene, "%s:part%q:pressure(%s)", body.name, name, value)
 end
 
 function act.obstacle(scene, body, name)
-  if not body.displaced then solids.obstacle(scene, body, name) end
+  if body.displaced then return end
+  solids.obstacle(scene, body, name)
+  if scene.wide and dice.chance(0.15) then solids.obstacle(scene, body, name, true) end
 end
 
 function act.nothing() end
@@ -154,10 +163,10 @@ local function columns(scene, count)
   local up, left, rows = scene.dimension, 0, math.max(1, math.ceil(count / dice.pick{ 1, 1, 2, 3 }))
   while #scene.bodies < count do
     local width, top, below = scene.size * dice.between(0.4, 1.5), 0, nil
-    local gap_between = dice.chance(0.6) and 0 or scene.size * dice.power(-4, -2) * dice.pick{ -1, 1, 1 }
+    local gap_between = dice.chance(0.6) and 0 or scene.size * scene.small * dice.power(-4, -2) * dice.pick{ -1, 1, 1 }
     local column = {}
     for row = 1, math.min(rows, count - #scene.bodies) do
-      local gap = row == 1 and 0 or dice.chance(0.6) and 0 or scene.size * dice.power(-4, -2) * dice.pick{ -1, 1, 1 }
+      local gap = row == 1 and 0 or dice.chance(0.6) and 0 or scene.size * scene.small * dice.power(-4, -2) * dice.pick{ -1, 1, 1 }
       local glued = row > 1 and not below.disc and dice.chance(0.12)
       local narrow = dice.chance(0.7) and 0 or width * dice.between(0, 0.3)
       local low, size = { left + narrow, 0 }, { width - 2 * narrow, scene.size * dice.between(0.2, 1), scene.size * dice.between(0.2, 1) }
@@ -188,14 +197,33 @@ local function touch(scene)
         local apart <const> = body.low[1] - left.high[1]
         local faces <const> = not (left.disc or body.disc) -- a disc has no facet across but about its middle, nor far away
           or (math.abs(left.low[up] + left.high[up] - body.low[up] - body.high[up]) < common and apart < 0.5 * common)
-        if common > 0.1 * scene.size and faces then solids.join(scene, body, left, "left", apart) end
+        if common > 0.1 * scene.size * scene.small and faces then solids.join(scene, body, left, "left", apart) end
       end
     end
   end
 end
 
-local function random_scene(dimension)
-  local scene = { dimension = dimension, lines = {}, bodies = {}, contacts = {}, glues = {}, supports = {}, columns = {} }
+-- What is rare: thin bodies, springs so weak that they hold nothing, materials over eight orders, order 2 on turned bodies.
+local function widen(scene)
+  scene.contrast = dice.pick{ 0.5, 3, 4 }
+  if dice.chance(0.15) then scene.thin = dice.power(-3, -1) end
+  scene.small = scene.thin or 1
+  scene.weak = dice.chance(0.15)
+  if scene.element:sub(2) == "2" and scene.angle == 0 and dice.chance(0.4) then scene.angle = dice.between(-1.5, 1.5) end
+end
+
+-- Loads in steps, the last often without any. Laws of supports are left out: some have loads of their own.
+local function steps(scene)
+  for _, support in ipairs(scene.supports) do if support.law then return end end
+  if not dice.chance(0.12) then return end
+  scene.steps = {}
+  for k = 1, dice.whole(1, 3) do scene.steps[k] = dice.pick{ 1, dice.between(0, 1) } end
+  table.insert(scene.steps, dice.pick{ 0, 0, 1e-9, 1e-3 })
+end
+
+local function random_scene(dimension, wide)
+  local scene = { dimension = dimension, lines = {}, bodies = {}, contacts = {}, glues = {}, supports = {}, columns = {},
+                  wide = wide, small = 1, reach = 0, moved = 0 }
   scene.angle = dice.chance(0.25) and dice.between(-1.5, 1.5) or 0
   scene.size, scene.E, scene.contrast = dice.chance(0.7) and 1 or dice.power(-3, 3), dice.power(0, 6), dice.chance(0.5) and 0.5 or 3
   scene.stress = scene.E * dice.power(-4, -2)
@@ -203,6 +231,7 @@ local function random_scene(dimension)
   scene.level = dice.chance(0.8) -- are loads turned with the scene?
   scene.friction = dice.weighted{ "none", 4, "tresca", 3, "coulomb", 4 }
   scene.element = dice.pick{ "P1", "Q1", "P2", "Q2" }
+  if wide then widen(scene) end
   if scene.angle ~= 0 then
     local c, s = format(math.cos(scene.angle)), format(math.sin(scene.angle))
     if dimension == 2 then say(scene, "local function turn(x, y) return %s * x - %s * y, %s * x + %s * y end", c, s, s, c)
@@ -221,9 +250,10 @@ local function random_scene(dimension)
 end
 
 -- Scenes in which nothing happens are few.
-return function(dimension)
+return function(dimension, wide)
   while true do
-    local scene = random_scene(dimension)
+    local scene = random_scene(dimension, wide)
+    if wide then steps(scene) end
     local happens = dice.chance(0.02)
     for _, body in ipairs(scene.bodies) do happens = happens or #body.loads > 0 or body.displaced or body.overlaps end
     if happens then return solids.finish(scene) end

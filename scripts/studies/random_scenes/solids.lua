@@ -89,6 +89,7 @@ local function body_force(scene, body)
   end
   if dice.chance(0.93) then force[scene.dimension] = -math.abs(force[scene.dimension]) end
   if scene.level then force = solids.turn(scene, force) end
+  body.force = force
   if body.disc then -- a regular polygon, of order 2 with an arc of a parabola on each edge
     local straight, R = body.element:sub(2) == "1", (body.high[1] - body.low[1]) / 2
     local half = math.pi / body.edges
@@ -100,15 +101,17 @@ local function body_force(scene, body)
   return (", force = %s"):format(format(force))
 end
 
-local function grading(scene)
+local function grading(scene, body)
   if not dice.chance(0.2) then return "" end
-  local axis = dice.pick{ "x", scene.dimension == 2 and "y" or "z" }
-  return (", grading = { %s = function(s) return s^%s end }"):format(axis, format(dice.between(1, 3)))
+  local axis, power = dice.pick{ "x", scene.dimension == 2 and "y" or "z" }, dice.between(1, 3)
+  body.grading = { axis = axis == "x" and 1 or scene.dimension, power = power }
+  return (", grading = { %s = function(s) return s^%s end }"):format(axis, format(power))
 end
 
 local function add_disc(scene, body)
   local R = (body.high[1] - body.low[1]) / 2
   local n = dice.whole(body.element == "Q1" and 3 or 2, body.element:sub(2) == "1" and 4 or 2)
+  body.rings = n
   body.edges = (body.element:sub(1, 1) == "P" and 6 or 4) * n
   local centre = solids.turn(scene, { body.low[1] + R, body.low[2] + R })
   say(scene, "local %s = dotyk.body{ name = %q, material = %s, mesh = dotyk.mesh.disc{ center = %s, radius = %s, cells = %d, element = %q }%s }",
@@ -119,7 +122,9 @@ local function add_box(scene, body)
   local cells = {}
   for axis = 1, scene.dimension do
     cells[axis] = dice.whole(1, scene.dimension == 3 and (body.element:sub(2) == "1" and 3 or 2) or body.element:sub(2) == "1" and 6 or 3)
+    if body.thin then cells[axis] = axis == scene.dimension and dice.whole(1, 2) or cells[axis] * (scene.dimension == 2 and 3 or 1) end
   end
+  body.cells = cells
   local transform = ""
   if body.bend ~= 0 then
     local up, x = scene.dimension, scene.dimension == 2 and "x, y" or "x, y, z"
@@ -130,24 +135,29 @@ local function add_box(scene, body)
   if scene.angle ~= 0 then transform = transform .. ":transform(turn)" end
   say(scene, "local %s = dotyk.body{ name = %q, material = %s, mesh = dotyk.mesh.%s{ from = %s, to = %s, cells = %s, element = %q%s }%s%s }",
       body.name, body.name, body.material, scene.dimension == 2 and "rectangle" or "box", body.low, body.high, cells, body.element,
-      grading(scene), transform, body_force(scene, body))
+      grading(scene, body), transform, body_force(scene, body))
 end
 
-local function material(scene)
+local function material(scene, body)
   local E, nu = scene.E * dice.power(-scene.contrast, scene.contrast), dice.between(0, 0.45)
-  local plane = scene.dimension == 2 and dice.chance(0.3) and ', plane = "stress"' or ""
-  return ("dotyk.material{ E = %s, nu = %s%s }"):format(format(E), format(nu), plane), E
+  local stress = scene.dimension == 2 and dice.chance(0.3)
+  body.E, body.nu, body.plane = E, nu, stress and "stress" or "strain"
+  body.material = ("dotyk.material{ E = %s, nu = %s%s }"):format(format(E), format(nu), stress and ', plane = "stress"' or "")
 end
 
 -- A body on the ground or on another; `low` its lower left corner, `size` the room that it has; one to be glued has a plane underside.
 local function add_body(scene, low, size, glued)
-  local body = { name = "b" .. #scene.bodies + 1, low = low, high = {}, loads = {}, constraints = {}, supports = {}, taken = {}, bend = 0, held = 0 }
+  local body = { name = "b" .. #scene.bodies + 1, low = low, high = {}, loads = {}, given = {}, constraints = {}, supports = {}, taken = {}, bend = 0, held = 0 }
   body.index = #scene.bodies + 1
-  body.material, body.E = material(scene)
+  material(scene, body)
   body.element = dice.chance(0.6) and scene.element or dice.pick{ "P1", "Q1", "P2", "Q2" }
   body.disc = scene.dimension == 2 and not glued and dice.chance(0.15)
   for axis = 1, scene.dimension do body.high[axis] = low[axis] + size[body.disc and 1 or axis] end
-  if not body.disc and not glued and dice.chance(0.12) then
+  if scene.thin and not body.disc and dice.chance(0.7) then
+    body.high[scene.dimension] = low[scene.dimension] + scene.thin * (body.high[1] - low[1])
+    body.thin = true
+  end
+  if not body.disc and not glued and dice.chance((scene.wide and body.element:sub(2) == "2") and 0.3 or 0.12) then
     body.bend = (body.high[scene.dimension] - low[scene.dimension]) * dice.sign() * dice.power(-3, -0.7)
   end
   table.insert(scene.bodies, body)
@@ -198,18 +208,24 @@ local function join(scene, one, other, one_side, gap)
   local text = part(scene, a.body, a.side) .. ", " .. part(scene, b.body, b.side)
   local pairing = dice.weighted{ "", 6, "mortar", 2, covered and "node_to_segment" or "", 2 }
   if pairing ~= "" then text = text .. (", pairing = %q"):format(pairing) end
-  if dice.chance(0.1) then text = text .. ", gap = " .. format(scene.size * dice.power(-4, -2)) end
+  if dice.chance(0.1) then
+    local more = scene.size * scene.small * dice.power(-4, -2)
+    scene.reach, text = scene.reach + more, text .. ", gap = " .. format(more)
+  end
+  scene.reach = scene.reach + math.abs(gap)
   add_contact(scene, text, { first = a, second = b, overlap = overlap, curved = one.disc or other.disc or one.bend ~= 0 })
 end
 
-local function obstacle(scene, body, name)
+-- `another`: beside one of the same part.
+local function obstacle(scene, body, name, another)
   local n = solids.turn(scene, normal_of(scene, name))
-  local gap = dice.chance(0.5) and 0 or scene.size * dice.power(-4, -1.3) * (body.held == 0 and dice.chance(0.2) and -1 or 1)
+  local gap = not another and dice.chance(0.5) and 0 or scene.size * scene.small * dice.power(-4, -1.3) * (body.held == 0 and dice.chance(0.2) and -1 or 1)
   local against, inwards, centre, axis, sign = {}, {}, {}, side_of(scene, name)
   for k = 1, scene.dimension do
     centre[k] = k == axis and (sign > 0 and body.high[k] or body.low[k]) + sign * gap or (body.low[k] + body.high[k]) / 2
     inwards[k] = -n[k]
   end
+  scene.reach = scene.reach + math.abs(gap)
   local kind = body.disc and "plane" or dice.weighted{ "plane", 6, "gap", 2, "ball", 2 }
   body.overlaps = body.overlaps or gap < 0
   local overlap = gap < 0
@@ -308,6 +324,7 @@ function solids.finish(scene)
   -- On curved parts conditions are means of places beside the node: what they measure of rigid motions is asked for (probe.lua) where
   -- contacts have them. Of supports by laws it is not told exactly.
   for _, contact in ipairs(scene.contacts) do
+    scene.curved_parts = scene.curved_parts or contact.curved or contact.ball
     scene.curved = scene.curved or (contact.curved and (contact.second or contact.first.body.element:sub(2) == "2"))
   end
   for _, support in ipairs(scene.supports) do
