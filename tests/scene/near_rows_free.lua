@@ -60,7 +60,7 @@ for _, node in ipairs(s:contact(contacts[1]).nodes) do
 end
 check.that(joined > 0, "no row on the farther part closed")
 
--- A bar on a ridge of three nodes: the part that touches is a three-hundredth of what turns about it. Condensed on this part alone equilibrium was off by 9e-8.
+-- A bar on a ridge of three nodes: the part that touches is a three-hundredth of what turns about it. Condensed on this part alone equilibrium was off by 2e-6 of the load.
 do
   local body <const> = dotyk.body{ name = "bar", material = dotyk.material{ E = 2000, nu = 0.25 },
     mesh = dotyk.mesh.rectangle{ from = { -1, 0 }, to = { 1, 0.1 }, cells = { 800, 50 } } }
@@ -68,5 +68,5 @@ do
   local scene <const> = dotyk.scene{ body }
   scene:contact{ body:part"bottom", rigid = dotyk.rigid.gap{ normal = { 0, -1 }, gap = function(x) return math.abs(x) < 0.003 and 0 or 0.01 end } }
   local s <const> = dotyk.solve(scene)
-  check.that(s.converged and s.residual.equilibrium < 5e-9, s.residual.equilibrium)
+  check.that(s.converged and s.residual.equilibrium < 1e-7, s.residual.equilibrium)
 end

@@ -34,8 +34,8 @@ constexpr double kFirst = 0.01;
 /// Resultants that no multipliers balance, relative to all: above rounding in long sums.
 constexpr double kImbalance = 1e-9;
 /// The equilibrium of the displacements recovered may be worse than tol by what stiffnesses and sizes make of the copies'
-/// disagreement; beyond this, or a hundredth of the forces, it is no solution.
-constexpr double kSpoilt = 1e4, kMostNoise = 1e-2;
+/// disagreement; beyond this, or a tenth of the forces, it is no solution.
+constexpr double kSpoilt = 1e4, kMostNoise = 0.1;
 /// Below this part of what it is the difference of Pd may be rounding; it is taken for so many times what was seen of it.
 constexpr double kSuspect = 1e-9, kSuspectRoundings = 10;
 

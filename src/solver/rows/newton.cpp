@@ -238,10 +238,11 @@ void hand_over(RowIteration& iteration, double tol) {
     iteration.grant(next.iterations);
     iteration.monitor().phase(tried + "; " + next.method->name());
     next.method->iterate(iteration);
-    tried += text(iteration.converged() ? "; ended by " : "; tried ", next.method->name(), ", ", iteration.iterations() - before, " iterations");
-    if (iteration.converged()) break;
+    const bool ended = iteration.stands();
+    tried += text(ended ? "; ended by " : "; tried ", next.method->name(), ", ", iteration.iterations() - before, " iterations");
+    if (ended) break;
   }
-  if (!iteration.converged() && !iteration.monitor().stop() && coulomb) tried += search(iteration, tol);
+  if (!iteration.stands() && !iteration.monitor().stop() && coulomb) tried += search(iteration, tol);
   iteration.remark(tried);
 }
 

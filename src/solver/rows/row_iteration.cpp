@@ -25,7 +25,7 @@ RowMeasure::RowMeasure(const problem::Problem& problem, const problem::Condensed
 
 Vector RowMeasure::forces(const Vector& lambda) const {
   std::vector<double> of_part = measure_.parts().norm(lambda);
-  for (std::size_t p = 0; p < of_part.size(); ++p) of_part[p] = std::max(std::min(of_part[p], measure_.force(p)), measure_.least_force(p));
+  for (std::size_t p = 0; p < of_part.size(); ++p) of_part[p] = std::max(of_part[p], measure_.least_force(p));
   return by_row(of_part);
 }
 
@@ -45,9 +45,7 @@ RowMeasure::Rho RowMeasure::rho(const Vector& lambda, const Vector& alpha, const
   Vector gross = condensed_->x0().cwiseAbs() + condensed_->W().cwiseAbs() * lambda.cwiseAbs();
   if (alpha.size() > 0) gross += condensed_->N().cwiseAbs() * alpha.cwiseAbs();
   const problem::Parts& parts = measure_.parts();
-  std::vector<double> force = parts.greatest(lambda);
-  const std::vector<double> stiffest = parts.greatest(stiffness());
-  for (std::size_t p = 0; p < force.size(); ++p) force[p] = std::min(force[p], measure_.force(p));
+  const std::vector<double> force = parts.greatest(lambda), stiffest = parts.greatest(stiffness());
   std::vector<double> moved = parts.greatest(x + c_);
   for (std::size_t p = 0; p < moved.size(); ++p)
     if (stiffest[p] > 0) moved[p] = std::max(moved[p], force[p] / stiffest[p]);
@@ -128,6 +126,7 @@ bool RowIteration::record(IterationInfo info) {
 
 void RowIteration::grant(int more) {
   allowed_ = result_.iterations + more;
+  result_.converged = false;
   result_.reason.clear();
   milestone_ = std::numeric_limits<double>::infinity();
   map_ = NaturalMap(problem, condensed, measure_.stiffness());
@@ -212,6 +211,11 @@ bool RowIteration::accept() {
   move_to(best);
   accepted_ = r.laws();
   return result_.converged = true;
+}
+
+bool RowIteration::stands() const {
+  if (!converged() || problem.blocks.empty()) return converged();
+  return problem::distance_from_laws(problem, {condensed.recover(at_.lambda, at_.alpha), at_.lambda}) <= std::max(result_.noise, settings_.tol);
 }
 
 Result solve(const Problem& problem, const CondensedProblem& condensed, const RowMethod& method, Monitor& monitor) {

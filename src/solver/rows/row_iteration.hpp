@@ -12,11 +12,11 @@
 namespace dotyk::solver {
 
 /// The Measure of a condensed problem, whose rows are as stiff as W says, so that one number says of an iterate how far it is from the laws:
-/// ‖λ − P(λ + ρx)‖ / F, the least for any x within rounding. F is that of each part's multipliers, but at most Measure::force() and at least
-/// Measure::least_force().
+/// ‖λ − P(λ + ρx)‖ / F, the least for any x within rounding. F is that of each part's multipliers, and at least Measure::least_force().
 ///
 /// A greater ρ asks more of gaps. A row's force is known to tol F only where ρ_r is not below the stiffness that the row sees; a gap that is
-/// great beside the displacements X must count as well. Hence ρ_r = max(1/W_rr, F/max(X, |c_r|)), X at least what F moves the stiffest row by.
+/// great beside the displacements X must count as well. Hence ρ_r = max(1/W_rr, F/max(X, |c_r|)), X at least what the greatest
+/// multiplier moves the stiffest row by.
 /// x is a sum of terms: of a body that moves as a whole far more than it deforms, rounding of it may be all that is left.
 class RowMeasure {
  public:
@@ -96,6 +96,8 @@ class RowIteration {
   bool converged() const { return result_.converged; }
   /// Ends here where the best iterate is a solution to rounding, though tol asks for more: its displacements are recovered and judged as results are.
   bool accept();
+  /// Was the last iterate recorded within tol, and do its displacements bear that out? Great multipliers that balance each other are measured by themselves here.
+  bool stands() const;
   /// Gives up, for this reason.
   void give_up(std::string reason) { result_.reason = std::move(reason); }
   /// Magnetic screws, where they are now.

@@ -1,0 +1,108 @@
+-- What is called converged is a solution, measured by what drives the scene and by nothing of the answer: friction included, whatever the method
+-- and its tolerance. What is a solution is called so, with springs that hold next to nothing and at the end of histories without load, too.
+local that <const> = require("check").that
+
+local function rotated(mesh, angle)
+  local c <const>, s <const> = math.cos(angle), math.sin(angle)
+  mesh:transform(function(x, y, z)
+    if z then return c * x - s * z, y, s * x + c * z end
+    return c * x - s * y, s * x + c * y
+  end)
+  return mesh
+end
+local function is_refused(scene, about)
+  local ok <const>, s <const> = pcall(dotyk.solve, scene)
+  that(not ok or not s.converged, about)
+end
+
+-- Two walls at a corner ask for what the support there does not allow.
+for _, angle in ipairs{ 0.3, 0.6, 0.9 } do
+  for _, mu in ipairs{ 0, 0.3, 1 } do
+    for _, element in ipairs{ "Q1", "P1" } do
+      local b <const> = dotyk.body{ mesh = rotated(dotyk.mesh.rectangle{ from = {0, 0}, to = {1, 1}, cells = {1, 1}, element = element }, angle), material = dotyk.material{ E = 1000, nu = 0.3 } }
+      local friction <const> = mu > 0 and dotyk.friction.coulomb(mu) or nil
+      b:part"right":spring{ x = 100, y = 100 }
+      b:part"left":fix "y"
+      local scene <const> = dotyk.scene{ b }
+      local c <const>, s <const> = math.cos(angle), math.sin(angle)
+      -- Along x the corner is to go back by 4e-4 / s, and the other wall leaves it 2e-4 / c.
+      scene:contact{ b:part"bottom", rigid = dotyk.rigid.gap{ normal = { s, -c }, gap = -0.0004 }, friction = friction }
+      scene:contact{ b:part"left", rigid = dotyk.rigid.gap{ normal = { -c, -s }, gap = 0.0002 }, friction = friction }
+      is_refused(scene, ("walls at %g, friction %g, %s"):format(angle, mu, element))
+    end
+  end
+end
+
+-- A foot that slides obliquely, and a side whose displacement says otherwise.
+for _, element in ipairs{ "P1", "Q1", "P2", "Q2" } do
+  for _, angle in ipairs{ 0.3, 1.3, -1.1 } do
+    for _, mu in ipairs{ 0, 0.3 } do
+      local c <const>, s <const> = math.cos(angle), math.sin(angle)
+      local b <const> = dotyk.body{ mesh = rotated(dotyk.mesh.box{ from = {0, 0, 0}, to = {1, 1, 1}, cells = {1, 1, 1}, element = element }, angle), material = dotyk.material{ E = 1000, nu = 0.3 } }
+      b:part"front":displace{ x = 3e-4, z = 7e-5 }
+      if pcall(function() b:part"bottom":slide() end) then
+        local scene <const> = dotyk.scene{ b }
+        scene:contact{ b:part"top", rigid = dotyk.rigid.gap{ normal = { -s, 0, c }, gap = 0 }, friction = mu > 0 and dotyk.friction.coulomb(mu) or nil }
+        is_refused(scene, ("slide at %g, friction %g, %s"):format(angle, mu, element))
+      end
+    end
+  end
+end
+
+local function rubbed(friction)
+  local b <const> = dotyk.body{ mesh = dotyk.mesh.rectangle{ from = {0, 0}, to = {4, 1}, cells = {32, 8} }, material = dotyk.material{ E = 1000, nu = 0.3 } }
+  b:part"top":displace{ y = -0.01, x = 0.004 }
+  local scene <const> = dotyk.scene{ b }
+  return scene, scene:contact{ b:part"bottom", rigid = dotyk.rigid.plane{ point = {0, 0}, normal = {0, 1} }, friction = friction }
+end
+
+-- A rough tolerance gives a rough solution, by which the method is charted.
+do
+  local scene <const> = rubbed(dotyk.friction.tresca(1.2))
+  local exact <const>, last = dotyk.solve(scene), math.huge
+  for _, tol in ipairs{ 1e-1, 1e-2, 1e-3, 1e-5 } do
+    local s <const> = dotyk.solver.uzawa{ tol = tol }:solve(scene)
+    local off <const> = s:distance(exact).energy
+    that(s.converged and s.residual.law <= tol, s.reason)
+    that(off > 1e-4 * tol and off < last, ("%g: %g"):format(tol, off))
+    last = off
+  end
+end
+
+-- More digits than there are: as good as rounding allows, and not because of the tolerance.
+for _, friction in ipairs{ dotyk.friction.tresca(1.2), dotyk.friction.coulomb(0.3) } do
+  local s <const> = dotyk.solver.newton{ tol = 1e-30 }:solve((rubbed(friction)))
+  that(s.converged and not s.reason:find("fell below tol", 1, true), s.reason)
+end
+
+-- Loaded, pushed to and fro, unloaded.
+for _, element in ipairs{ "P1", "Q1", "P2" } do
+  for _, way in ipairs{ { {1, 0}, {0, 0} }, { {1, 4}, {0, 0} }, { {1, 4}, {1, -4}, {0.5, 0}, {0, 0} }, { {1, 4}, {1e-9, 0} } } do
+    local b <const> = dotyk.body{ mesh = dotyk.mesh.rectangle{ from = {-2, 0}, to = {2, 1}, cells = {12, 3}, element = element }, material = dotyk.material{ E = 1000, nu = 0.3 } }
+    b:part"top":load({ 0, -10 }, "press")
+    b:part"top":load({ 1, 0 }, "push")
+    b:part"left":spring{ x = 30 }
+    local scene <const>, steps <const> = dotyk.scene{ b }, {}
+    local contact <const> = scene:contact{ b:part"bottom", rigid = dotyk.rigid.plane{ point = {0, 0}, normal = {0, 1} }, friction = dotyk.friction.coulomb(0.3) }
+    for k, step in ipairs(way) do steps[k] = { load = { press = step[1], push = step[2] } } end
+    local s <const> = dotyk.solve(scene, { steps = steps })
+    for _, step in ipairs(s.steps) do that(step.converged, step.reason) end
+    that(s:contact(contact).max_pressure <= 30 * way[#way][1] + 1e-12)
+  end
+end
+
+-- Thin strips on the ground, an end on a spring: each point of the ground bears what is above it.
+for _, element in ipairs{ "P1", "P2" } do
+  for _, height in ipairs{ 0.01, 0.003, 0.001 } do
+    for _, mu in ipairs{ 0, 0.3 } do
+      local b <const> = dotyk.body{ mesh = dotyk.mesh.rectangle{ from = {0, 0}, to = {2, height}, cells = {10, 1}, element = element }, material = dotyk.material{ E = 1000, nu = 0.3 } }
+      b:part"top":load{ 0, -1e-3 }
+      b:part"left":spring{ x = 10, y = 10 }
+      local scene <const> = dotyk.scene{ b }
+      local contact <const> = scene:contact{ b:part"bottom", rigid = dotyk.rigid.plane{ point = {0, 0}, normal = {0, 1} }, friction = mu > 0 and dotyk.friction.coulomb(mu) or nil }
+      local s <const> = dotyk.solve(scene)
+      that(s.converged, ("%s %g %g: %s"):format(element, height, mu, s.reason))
+      for _, node in ipairs(s:contact(contact).nodes) do that(math.abs(node.pressure / 1e-3 - 1) < 2.5e-3, ("%s %g %g: %g"):format(element, height, mu, node.pressure)) end
+    end
+  end
+end
