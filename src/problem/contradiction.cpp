@@ -15,8 +15,8 @@ namespace {
 
 /// Of a row's length: a smaller entry gives it no unknown of its own, and moves nothing.
 constexpr double kEntry = 1e-6;
-/// The least residual, of 1, that is one: rows which only displacements a billion times their violation satisfy are contradictory.
-constexpr double kNone = 1e-9;
+/// Rows that only displacements of so many times their violation satisfy are contradictory: a displacement that satisfies them is at least -cᵀμ/‖Bᵀμ‖.
+constexpr double kFar = 1e6;
 
 enum class Holds : char { other, one_sided, bilateral };
 
@@ -67,8 +67,8 @@ Vector farkas(const Problem& problem, const std::vector<int>& rows, const std::v
     set.low.push_back(kind[r] == Holds::one_sided ? 0 : -INFINITY), set.high.push_back(INFINITY);
   }
   const SparseRows A = algebra::from_triplets<SparseRows>(static_cast<Eigen::Index>(rows.size()), count, entries);
-  const auto found = algebra::cone_least_squares(A, Vector(-Vector::Unit(count, count - 1)), set, kNone);
-  return found.residual.norm() <= kNone ? found.x : Vector();
+  const auto found = algebra::cone_least_squares(A, Vector(-Vector::Unit(count, count - 1)), set);
+  return found.residual.head(count - 1).norm() * kFar <= 1 + found.residual[count - 1] ? found.x : Vector();
 }
 
 }  // namespace
