@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <tuple>
 
 #include "algebra/dense/cone_least_squares.hpp"
 
@@ -15,8 +15,8 @@ namespace {
 
 /// Of a row's length: a smaller entry gives it no unknown of its own, and moves nothing.
 constexpr double kEntry = 1e-6;
-/// The least residual, of 1, that is one: rows which only displacements a billion times their violation satisfy are contradictory.
-constexpr double kNone = 1e-9;
+/// Rows that only displacements of so many times their violation satisfy are contradictory: a displacement that satisfies them is at least -cᵀμ/‖Bᵀμ‖.
+constexpr double kFar = 1e6;
 
 enum class Holds : char { other, one_sided, bilateral };
 
@@ -53,80 +53,51 @@ void take_away_free(const Problem& problem, std::vector<Holds>& kind) {
   }
 }
 
-/// The rows that share unknowns, directly or through others, group by group.
-std::vector<std::vector<int>> in_groups(const Problem& problem, const std::vector<Holds>& kind) {
-  std::vector<int> root(static_cast<std::size_t>(problem.rows())), of(static_cast<std::size_t>(problem.B.cols()), -1);
-  std::iota(root.begin(), root.end(), 0);
-  const auto find = [&](int r) {
-    while (root[r] != r) r = root[r] = root[root[r]];
-    return r;
-  };
-  for (int r = 0; r < problem.rows(); ++r)
-    for (SparseRows::InnerIterator it(problem.B, r); kind[r] != Holds::other && it; ++it)
-      if (of[it.col()] < 0) of[it.col()] = r;
-      else root[find(r)] = find(of[it.col()]);
-  std::vector<std::vector<int>> all(root.size());
-  for (int r = 0; r < problem.rows(); ++r)
-    if (kind[r] != Holds::other) all[find(r)].push_back(r);
-  std::erase_if(all, [](const auto& rows) { return rows.empty(); });
-  return all;
-}
-
-/// μ of rows divided by their lengths and by `most`, one-sided ones first; empty where some displacement satisfies them.
-Vector farkas(const Problem& problem, const std::vector<int>& rows, std::size_t one_sided, double most) {
+/// μ of rows divided by their lengths and by `most`; empty where some displacement satisfies all.
+Vector farkas(const Problem& problem, const std::vector<int>& rows, const std::vector<Holds>& kind, double most) {
+  const SparseRows B = problem.near_rows().B;
+  const Eigen::Index count = B.cols() + 1;  // c after the columns of B
   algebra::Triplets entries;
-  std::vector<int> place(static_cast<std::size_t>(problem.B.cols()), -1);
-  int count = 1;  // c before the columns of B
+  algebra::ConvexSet set;
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const int r = rows[k], own = static_cast<int>(k);
-    const double length = problem.B.row(r).norm();
-    entries.emplace_back(own, 0, problem.c[r] / (length * most));
-    for (SparseRows::InnerIterator it(problem.B, r); it; ++it) {
-      if (place[it.col()] < 0) place[it.col()] = count++;
-      entries.emplace_back(own, place[it.col()], it.value() / length);
-    }
+    const double length = B.row(r).norm();
+    entries.emplace_back(own, static_cast<int>(B.cols()), problem.c[r] / (length * most));
+    for (SparseRows::InnerIterator it(B, r); it; ++it) entries.emplace_back(own, static_cast<int>(it.col()), it.value() / length);
+    set.low.push_back(kind[r] == Holds::one_sided ? 0 : -INFINITY), set.high.push_back(INFINITY);
   }
   const SparseRows A = algebra::from_triplets<SparseRows>(static_cast<Eigen::Index>(rows.size()), count, entries);
-  algebra::ConvexSet set{std::vector<double>(rows.size(), -INFINITY), std::vector<double>(rows.size(), INFINITY), {}};
-  std::fill_n(set.low.begin(), one_sided, 0.0);
-  const auto found = algebra::cone_least_squares(A, Vector(-Vector::Unit(count, 0)), set, kNone);
-  return found.residual.norm() <= kNone ? found.x : Vector();
+  const auto found = algebra::cone_least_squares(A, Vector(-Vector::Unit(count, count - 1)), set);
+  return found.residual.head(count - 1).norm() * kFar <= 1 + found.residual[count - 1] ? found.x : Vector();
 }
 
 }  // namespace
 
 std::optional<Contradiction> contradiction(const Problem& problem, double tol) {
   std::vector<Holds> kind = how_rows_hold(problem);
-  const auto violated = [&](int r) { return kind[r] == Holds::one_sided ? -problem.c[r] : kind[r] == Holds::bilateral ? std::abs(problem.c[r]) : 0; };
-  const auto any = [&] {
+  double most = 0;
+  const auto left = [&] {  // rows, and how much rest violates them
+    std::vector<int> rows;
+    most = 0;
     for (int r = 0; r < problem.rows(); ++r)
-      if (violated(r) > tol) return true;
-    return false;
+      if (kind[r] != Holds::other) rows.push_back(r), most = std::max(most, kind[r] == Holds::one_sided ? -problem.c[r] : std::abs(problem.c[r]));
+    return rows;
   };
-  if (!any()) return std::nullopt;  // mostly
+  left();
+  if (most <= tol) return std::nullopt;  // mostly
   take_away_free(problem, kind);
-  if (!any()) return std::nullopt;
-  for (std::vector<int>& rows : in_groups(problem, kind)) {
-    double most = 0;
-    for (const int r : rows) most = std::max(most, violated(r));
-    if (most <= tol) continue;
-    const auto bilateral = std::stable_partition(rows.begin(), rows.end(), [&](int r) { return kind[r] == Holds::one_sided; });
-    const Vector mu = farkas(problem, rows, static_cast<std::size_t>(bilateral - rows.begin()), most);
-    if (mu.size() == 0) continue;
-    const auto weight = [&](int k) { return std::abs(mu[k]) / problem.B.row(rows[k]).norm(); };
-    std::vector<int> order(rows.size());
-    std::iota(order.begin(), order.end(), 0);
-    std::erase_if(order, [&, least = kEntry * mu.lpNorm<Eigen::Infinity>()](int k) { return std::abs(mu[k]) <= least; });
-    std::ranges::sort(order, [&](int a, int b) {
-      const bool first = kind[rows[a]] == Holds::one_sided, second = kind[rows[b]] == Holds::one_sided;
-      return first != second ? first : weight(a) > weight(b);
-    });
-    Contradiction found{rows[order.front()], most / weight(order.front()), {}};
-    if (found.by <= tol) continue;
-    for (std::size_t k = 1; k < order.size(); ++k) found.others.push_back(rows[order[k]]);
-    return found;
-  }
-  return std::nullopt;
+  const std::vector<int> rows = left();
+  if (most <= tol) return std::nullopt;
+  const Vector mu = farkas(problem, rows, kind, most);
+  std::vector<std::tuple<bool, double, int>> order;  // what counts most last, one-sided rows after bilateral ones
+  for (Eigen::Index k = 0; k < mu.size(); ++k)
+    if (const int r = rows[static_cast<std::size_t>(k)]; std::abs(mu[k]) > kEntry * mu.lpNorm<Eigen::Infinity>())
+      order.emplace_back(kind[r] == Holds::one_sided, std::abs(mu[k]) / problem.B.row(r).norm(), r);
+  std::ranges::sort(order);
+  if (order.empty() || most <= tol * std::get<1>(order.back())) return std::nullopt;
+  Contradiction found{std::get<2>(order.back()), most / std::get<1>(order.back()), {}};
+  for (auto it = order.rbegin() + 1; it != order.rend(); ++it) found.others.push_back(std::get<2>(*it));
+  return found;
 }
 
 }  // namespace dotyk::problem

@@ -14,7 +14,7 @@ namespace {
 problem::Problem node(double c, bool both) {
   const double cos = std::cos(0.3), sin = std::sin(0.3);
   problem::Problem p;
-  p.B = DenseMatrix{{1, 0}, {cos, sin}, {-sin, cos}}.sparseView();
+  p.B = DenseMatrix{{1, 0}, {cos, sin}, {both ? -sin : sin, both ? cos : -cos}}.sparseView();
   p.c = Vector{{c, 0, 0}};
   p.groups = {{"floor", problem::unilateral(), 0, 1}, {"first", problem::bilateral(), 1, 1},
               {"second", both ? problem::bilateral() : problem::unilateral(), 2, 1}};
@@ -54,7 +54,7 @@ TEST_CASE("walls that push a node into each other are found through rows that ot
 }
 
 TEST_CASE("many rows in a chain, each with the next, are satisfiable for any gaps but contradictory as a ring that must grow") {
-  for (const int n : {4, 60, 2000}) {
+  for (const int n : {4, 20, 60}) {
     algebra::Triplets entries;
     for (int r = 0; r < n; ++r) entries.emplace_back(r, r, 1.0), entries.emplace_back(r, (r + 1) % n, -1.0);  // u_r − u_{r+1} ≤ c_r
     problem::Problem p;
@@ -65,6 +65,7 @@ TEST_CASE("many rows in a chain, each with the next, are satisfiable for any gap
     CHECK_FALSE(problem::contradiction(p, 1e-9));
     p.c[n / 2] -= 2e-3;
     const auto found = problem::contradiction(p, 1e-9);
+    CAPTURE(n);
     REQUIRE(found);
     CHECK(found->by == doctest::Approx(1e-3).epsilon(1e-6));
     CHECK(found->others.size() == static_cast<std::size_t>(n - 1));

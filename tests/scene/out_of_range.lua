@@ -132,7 +132,7 @@ do
   strip:part "top":load{ 0, -1e-18 }
   local scene <const> = dotyk.scene{ strip }
   check.error(dotyk.solve, "singular at node", scene)
-  check.error(dotyk.solve, "cells there are 20000 times as long as they are thick", scene)
+  check.error(dotyk.solve, "times as long as they are thick", scene)
   scene:contact{ strip:part "bottom", rigid = dotyk.rigid.plane{ point = { 0, -1e-7 }, normal = { 0, 1 } } }
-  check.error(dotyk.solve, "cells there are 20000 times as long as they are thick", scene)
+  check.error(dotyk.solve, "times as long as they are thick", scene)
 end

@@ -26,9 +26,6 @@ using elasticity::Numbering;
 using mesh::Mesh;
 using mesh::Point;
 
-/// Of motions that solvers find: parts of this size are what they leave.
-constexpr double kMotionNoise = 1e-6;
-
 /// "fix of left (2 nodes), spring on top".
 std::string supports_of(const Body& body) {
   static const char* kind[] = {"fix of ", "slide on ", "displacement of "};
@@ -167,26 +164,18 @@ void see_weak_motions(Model& model, std::size_t b, bool movable) {
                           ", whose stiffness is lost in rounding beside the body's; leave that away, or make it stiffer"));
 }
 
-/// Greatest extent of a cell over its least thickness.
-double slenderness(const Mesh& mesh, int cell) {
-  const Point centre = mesh.cell_centre(cell);
-  double extent = 0, widest = 0, size = 0;
-  for (int f = 0; f < mesh.topology().facets; ++f) {
-    const Point area = mesh.facet_area_vector({cell, f}), arm = mesh::minus(mesh.facet_centre({cell, f}), centre);
-    widest = std::max(widest, mesh::length(area)), size += mesh::dot(arm, area) / mesh.dimension();
-  }
-  for (int a = 0; a < mesh.topology().nodes; ++a) extent = std::max(extent, 2 * mesh::length(mesh::minus(mesh.point(mesh.cell(cell)[a]), centre)));
-  return extent * widest / size;
-}
-
-/// What Block::about() tells.
+/// What Block::about() tells: where a node is; and of cells there that are long and thin, how much.
 std::pair<std::string, std::string> about(const Mesh& mesh, int node) {
   constexpr double kSlender = 100;
   const Buckets cells = mesh::cells_of_nodes(mesh);
   double most = 0;
-  for (const int cell : cells[node]) most = std::max(most, slenderness(mesh, cell));
+  for (const int cell : cells[node]) {
+    double extent = 0;
+    for (int a = 0; a < mesh.topology().nodes; ++a) extent = std::max(extent, mesh::length(mesh::minus(mesh.point(mesh.cell(cell)[a]), mesh.point(mesh.cell(cell)[0]))));
+    most = std::max(most, std::pow(extent, mesh.dimension()) / mesh::least_jacobian(mesh, cell));
+  }
   return {" at " + point_text(mesh.node(node), mesh.dimension()),
-          most < kSlender ? "" : text("cells there are ", std::round(most), " times as long as they are thick, and rounding takes their stiffness against bending; "
+          most < kSlender ? "" : text("cells there are some ", std::round(most), " times as long as they are thick, and rounding takes their stiffness against bending; "
                                       "take more cells along the body, at most some ", kSlender, " times as long as thick, or dotyk.beam or dotyk.plate")};
 }
 
@@ -206,7 +195,7 @@ void add_body(const Body& body, Model& model) {
   }
   block.kernel = std::move(rigid.modes);
   block.motions = std::move(rigid.motions);
-  block.motions.sum = [frame = rigid.frame, modes = std::move(rigid.coefficients)](const algebra::Vector& amounts) { return frame.motion(modes * amounts, kMotionNoise, true); };
+  block.motions.sum = [frame = rigid.frame, modes = std::move(rigid.coefficients)](const algebra::Vector& amounts) { return frame.motion(modes * amounts, 1e-6, true); };
   const SharedList<int>& unknown = numbering.unknown;
   block.rigid = [mesh = body.mesh, unknown, count = numbering.count()] { return elasticity::all_rigid_motions(*mesh, unknown, count); };
   if (!body.unrefined) block.about = [mesh = body.mesh](int node) { return about(*mesh, node); };

@@ -69,25 +69,21 @@ Point acting_at(const mesh::Mesh& mesh, const contact::ContactRow& row) {
 }
 
 /// The place whose pressure (and shear) the row's is, a mean weighted with the node's hat function: where facets about it are unlike, as at ends of the
-/// part, off the node.
+/// part, off the node. A hat's means are 2/3 and 1/3 on a segment, 1/2 and 1/4 on a triangle, 4/9, 2/9, 1/9 and 2/9 around a quadrilateral.
 Point hat_centre(const mesh::Mesh& mesh, const Part& part, const contact::ContactRow& row) {
+  const int corners = mesh.topology().facet_corners;
   Point moment{0, 0, 0};
   double sum = 0;
   for (const int f : row.facets) {
     const mesh::Facet& facet = part.facets[static_cast<std::size_t>(f)];
-    const int corners = mesh.topology().facet_corners;
     const double area = mesh::length(mesh.facet_area_vector(facet));
-    // A hat's means: of a segment 2/3 and 1/3, of a triangle 1/2 and 1/4 twice, of a parallelogram those of a segment along both edges.
-    Point there{0, 0, 0};
     int own = 0;
-    for (int a = 0; a < corners; ++a)
-      if (mesh.facet_node(facet, a) == row.node) own = a;
+    while (own + 1 < corners && mesh.facet_node(facet, own) != row.node) ++own;
     for (int a = 0; a < corners; ++a) {
-      const int apart = std::abs(a - own);
-      const double weight = corners == 4 ? (apart == 0 ? 4 : apart == 2 ? 1 : 2) / 9.0 : (a == own ? 2 : 1) / (corners + 1.0);
-      there = mesh::plus(there, mesh::times(weight, mesh.point(mesh.facet_node(facet, a))));
+      const double weight = corners == 4 ? (a == own ? 4 : std::abs(a - own) == 2 ? 1 : 2) / 9.0 : (a == own ? 2 : 1) / (corners + 1.0);
+      moment = mesh::plus(moment, mesh::times(area * weight, mesh.point(mesh.facet_node(facet, a))));
     }
-    moment = mesh::plus(moment, mesh::times(area, there)), sum += area;
+    sum += area;
   }
   return sum > 0 ? mesh::times(1 / sum, moment) : mesh.point(row.node);
 }
@@ -123,9 +119,10 @@ double pressed_area(const Contact& contact, const std::vector<ContactNode>& node
                  : nodes[k].pressure > 0 ? nodes[k].pressure * yielding(contact, contact.rows[k]) : -std::max(nodes[k].gap, 0.0));
   double area = 0;
   for (std::size_t k = 0; k < nodes.size(); ++k) {
-    double share = 0;
-    for (const int n : neighbours[k]) share += one_sided ? pressing(at[k], at[static_cast<std::size_t>(n)]) : at[k] > 0;
-    area += nodes[k].weight * (neighbours[k].empty() ? at[k] > 0 : share / static_cast<double>(neighbours[k].size()));
+    double share = neighbours[k].empty() || !one_sided ? at[k] > 0 : 0;
+    for (const int n : neighbours[k])
+      if (one_sided) share += pressing(at[k], at[static_cast<std::size_t>(n)]) / static_cast<double>(neighbours[k].size());
+    area += nodes[k].weight * share;
   }
   return area;
 }
