@@ -6,7 +6,9 @@
 #include <utility>
 
 #include "algebra/congruent.hpp"
+#include "algebra/dense/dense.hpp"
 #include "algebra/dense/generalised_inverse.hpp"
+#include "algebra/dense/null_space.hpp"
 #include "algebra/entries_of.hpp"
 #include "base/text.hpp"
 #include "problem/coarser.hpp"
@@ -82,10 +84,30 @@ algebra::Triplets HeldStiffness::assemble(bool takes_slices) {
   return {};
 }
 
+/// Unknowns that are no row's mostly know of one body alone: where these feel its motions, they hold them. The motions of all others are held together.
 void HeldStiffness::fix_noticed(const RigidMotions& rigid) {
   if (rigid.noticed.cols() == 0) return;
-  const SparseMatrix motions = problem::displacement(problem_, rigid.noticed);
-  fixing_noticed_ = algebra::fixing_unknowns(basis_.trivial() ? motions : SparseMatrix(basis_.of_displacements(problem_) * motions));
+  constexpr double kFelt = 0.1;  // of what all unknowns feel
+  SparseMatrix motions = problem::displacement(problem_, rigid.noticed);
+  if (!basis_.trivial()) motions = SparseMatrix(basis_.of_displacements(problem_) * motions);
+  std::vector<char> own(static_cast<std::size_t>(problem_.unknowns()), 0), together(static_cast<std::size_t>(motions.cols()), 1);
+  for (const int unknown : basis_.unknown)
+    if (unknown >= 0) own[unknown] = 1;
+  SparseMatrix apart = motions;
+  apart.prune([&](int row, int, double) { return !own[row]; });
+  for (const algebra::Piece& piece : algebra::pieces(apart)) {
+    if (piece.rows.size() < piece.columns.size()) continue;
+    const DenseMatrix felt = algebra::dense(apart, piece);
+    double most = 0;
+    for (const int k : piece.columns) most = std::max(most, motions.col(k).norm());
+    if (!(algebra::smallest_singular_value(algebra::orthogonal_factors(felt).R) > kFelt * most)) continue;
+    for (const int i : algebra::fixing_unknowns(felt)) fixing_noticed_.push_back(piece.rows[i]);
+    for (const int k : piece.columns) together[k] = 0;
+  }
+  motions.prune([&](int, int column, double) { return together[column] != 0; });
+  for (const algebra::Piece& piece : algebra::pieces(motions))
+    if (together[piece.columns.front()])
+      for (const int i : algebra::fixing_unknowns(algebra::dense(motions, piece))) fixing_noticed_.push_back(piece.rows[i]);
 }
 
 algebra::Triplets HeldStiffness::assemble_near_rows(const algebra::Triplets& room) {

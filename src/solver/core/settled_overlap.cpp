@@ -2,13 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <vector>
 
-#include "algebra/dense/decompositions.hpp"
+#include "algebra/direct/cholesky.hpp"
 #include "problem/rigid_motions.hpp"
 
 namespace dotyk::solver {
 
-using algebra::DenseMatrix;
+using algebra::SparseMatrix;
 using algebra::Vector;
 using problem::Problem;
 
@@ -37,10 +39,10 @@ class Springs {
   const Vector& load() const { return rigid_.noticed_e; }
   /// Beside all forces.
   double share(const Vector& unbalanced, const Vector& alpha) {
-    const Vector gross = load().cwiseAbs() + N_.cwiseAbs().transpose() * forces(overlap(alpha)).cwiseAbs();
+    const Vector gross = load().cwiseAbs() + SparseMatrix(N_.cwiseAbs()).transpose() * forces(overlap(alpha)).cwiseAbs();
     return unbalanced.norm() / gross.norm();
   }
-  const DenseMatrix& N() const { return N_; }
+  const SparseMatrix& N() const { return N_; }
   const Vector& stiffness() const { return k_; }
   Vector overlap(const Vector& alpha) const { return N_ * alpha - problem_.c; }
   Vector unbalanced(const Vector& alpha) { return load() - N_.transpose() * forces(overlap(alpha)); }
@@ -67,7 +69,7 @@ class Springs {
  private:
   const Problem& problem_;
   problem::RigidMotions rigid_;
-  DenseMatrix N_;
+  SparseMatrix N_;
   Vector k_, slope_;
 };
 
@@ -78,13 +80,18 @@ std::optional<Vector> settled_overlap(const Problem& problem) {
   constexpr double kFloor = 1e-6;  // of the stiffness of open rows, so that every step is definite
   if (!std::all_of(problem.blocks.begin(), problem.blocks.end(), [](const problem::Block& b) { return b.rigid && b.size() > 0; })) return std::nullopt;
   Springs springs(problem);
-  const DenseMatrix& N = springs.N();
+  const SparseMatrix& N = springs.N();
   const Vector& k = springs.stiffness();
   Vector alpha = Vector::Zero(N.cols());
   Vector left = springs.load() + N.transpose() * k.cwiseProduct(problem.c), slope = k;  // at first all rows hold
+  const auto stiffness = [&] { return SparseMatrix(SparseMatrix(N.transpose() * SparseMatrix(slope.asDiagonal() * N)).triangularView<Eigen::Lower>()); };
+  if (N.cols() == 0) return springs.overlap(alpha);
+  std::vector<int> own(static_cast<std::size_t>(N.cols()));
+  std::iota(own.begin(), own.end(), 0);
+  algebra::Cholesky cholesky(stiffness(), own, {});
   double share = INFINITY;
-  for (int step = 0; step < kSteps && share > kBalanced && left.allFinite(); ++step) {
-    const Vector d = algebra::Ldlt(N.transpose() * slope.asDiagonal() * N).solve(left);
+  for (int step = 0; step < kSteps && share > kBalanced && cholesky.factor(stiffness()); ++step) {
+    const Vector d = cholesky.solve(left);
     // A convex energy falls along d until its slope turns.
     double length = 1;
     int halvings = 0;
