@@ -1,9 +1,9 @@
--- Finite elements of linear elasticity for scripts that check the program's own: P1, P2, Q1, Q2 in the plane and in space, by their
--- definition and without a matrix. Loaded by include; knows nothing of the program.
+-- Finite elements of linear elasticity for scripts that check the program's own: P1, P2, Q1, Q2 in the plane and in
+-- space, by their definition and without a matrix. Loaded by include; knows nothing of the program.
 --
--- A mesh is { dimension, order, simplex, points = { {x, y[, z]}, … }, cells = { {node, …}, … } }. Nodes of a cell: of simplices the
--- corners, then the middles of edges in the order of pairs (1,2), (1,3), (2,3), (1,4), …; of tensor cells those of a lattice, the first axis
--- fastest. Facets are cells of the same family of one dimension less.
+-- A mesh is { dimension, order, simplex, points = { {x, y[, z]}, … }, cells = { {node, …}, … } }. Nodes of a cell: of
+-- simplices the corners, then the middles of edges in the order of pairs (1,2), (1,3), (2,3), (1,4), …; of tensor cells
+-- those of a lattice, the first axis fastest. Facets are cells of the same family of one dimension less.
 
 local fem = {}
 
@@ -56,8 +56,8 @@ local function tensor_shape(d, order, x)
   return N, D
 end
 
--- 2. Points of integration { x, weight }: Gauss's, `order + 1` along each axis of tensor cells, as these elements are defined; simplices by
--- Gauss's points on a cube that collapses to them, exact to degree 6 - d.
+-- 2. Points of integration { x, weight }: Gauss's, `order + 1` along each axis of tensor cells, as these elements are
+-- defined; simplices by Gauss's points on a cube that collapses to them, exact to degree 6 - d.
 local function points(simplex, d, order)
   local all = { { x = {}, weight = 1 } }
   for axis = 1, d do
@@ -99,7 +99,8 @@ local function rule(mesh, d, of_stiffness)
   local key = (mesh.simplex and "P" or "Q") .. mesh.order .. d .. (low and "low" or "")
   if not known[key] then
     known[key] = low and near_corners(d) or points(mesh.simplex, d, mesh.order)
-    for _, p in ipairs(known[key]) do p.N, p.D = (mesh.simplex and simplex_shape or tensor_shape)(d, mesh.order, p.x) end
+    local shape <const> = mesh.simplex and simplex_shape or tensor_shape
+    for _, p in ipairs(known[key]) do p.N, p.D = shape(d, mesh.order, p.x) end
   end
   return known[key]
 end
@@ -160,7 +161,8 @@ function fem.lame(E, nu, plane)
   return plane == "stress" and 2 * lambda * mu / (lambda + 2 * mu) or lambda, mu
 end
 
--- Nodal forces K u and the energy ½ uᵀKu, of u[node] = { x, y[, z] }; and of each node (2μ + λ) ∫ |∇N|², the size of K's entries there.
+-- Nodal forces K u and the energy ½ uᵀKu, of u[node] = { x, y[, z] }; and of each node (2μ + λ) ∫ |∇N|², the size of K's
+-- entries there.
 function fem.inner_forces(mesh, lambda, mu, u)
   local d <const>, forces <const>, stiffness <const>, energy = mesh.dimension, zeros(mesh), {}, 0
   for node in ipairs(mesh.points) do stiffness[node] = 0 end
@@ -213,7 +215,8 @@ local function place(mesh, cell, N)
   return x
 end
 
--- Adds ∫ f(x) N over `cells`, those of the mesh or facets of its boundary, to forces; f(x, N, cell) may look at the cell's nodes.
+-- Adds ∫ f(x) N over `cells`, those of the mesh or facets of its boundary, to forces; f(x, N, cell) may look at the
+-- cell's nodes.
 function fem.add_load(mesh, cells, f, forces)
   if #cells == 0 then return forces end
   local d <const> = #cells[1] == #mesh.cells[1] and mesh.dimension or mesh.dimension - 1

@@ -51,9 +51,9 @@ local function along(slip, t)
   return row
 end
 
--- The forces that resist: `fixed` (of any size), others an amount of `rows[1]` from `low` to `high`, a vector of amounts of all rows of
--- length up to `radius`, or one in Coulomb's cone, the normal force first. `probed`: rows of the contacts where curved ones are (probe.lua);
--- `without`: "friction" of contacts, or "weak" springs.
+-- The forces that resist: `fixed` (of any size), others an amount of `rows[1]` from `low` to `high`, a vector of amounts
+-- of all rows of length up to `radius`, or one in Coulomb's cone, the normal force first. `probed`: rows of the contacts
+-- where curved ones are (probe.lua); `without`: "friction" of contacts, or "weak" springs.
 local function collect(scene, held, probed, without)
   local problem = { dimension = scene.dimension, size = scene.size, first = {}, centre = {}, modes = 0,
                     fixed = {}, forces = {}, load = {} }
@@ -63,7 +63,9 @@ local function collect(scene, held, probed, without)
     problem.centre[b], problem.first[b] = scene.turn(middle), problem.modes
     problem.modes = problem.modes + (scene.dimension == 2 and 3 or 6)
     for _, load in ipairs(body.loads) do row_of(problem, b, load.x, load.force, problem.load) end
-    for _, at in ipairs(body.constraints) do if not (at.weak and without == "weak") then table.insert(problem.fixed, row_of(problem, b, at.x, at.n, {})) end end
+    for _, at in ipairs(body.constraints) do
+      if not (at.weak and without == "weak") then table.insert(problem.fixed, row_of(problem, b, at.x, at.n, {})) end
+    end
   end
   local function jump(contact, x, n)
     local row, back = row_of(problem, contact.first.body.index, x, n, {}), {}
@@ -73,7 +75,8 @@ local function collect(scene, held, probed, without)
   for k, contact in ipairs(scene.contacts) do
     for i, node in ipairs(held.solution:contact(held.contacts[k]).nodes) do
       local x, rows = { node.x, node.y, scene.dimension == 3 and node.z or nil }, {}
-      local normal, law = probed and probed[k][i].normal or jump(contact, x, node.normal), without ~= "friction" and contact.friction
+      local normal = probed and probed[k][i].normal or jump(contact, x, node.normal)
+      local law = without ~= "friction" and contact.friction
       local free <const> = law and (not scene.rests(contact, x) or (law.kind == "tresca" and scene.across(contact, node.normal)))
       for _, t in ipairs(free and tangents(node.normal) or {}) do
         table.insert(rows, probed and along(probed[k][i].slip, t) or jump(contact, x, t))

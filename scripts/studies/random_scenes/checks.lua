@@ -1,13 +1,16 @@
--- Is a state that a method calls converged a solution? Checks of the scenes of scripts/studies/random_scenes.lua from nodal output, from
--- loads integrated there, and from nodal forces of an assembly of its own (nodes.lua). Loaded by include; returns
--- check(scene, made, solution, before), a list of what is wrong; `before` is the solution of the step before in a history.
+-- Is a state that a method calls converged a solution? Checks of the scenes of scripts/studies/random_scenes.lua from
+-- nodal output, from loads integrated there, and from nodal forces of an assembly of its own (nodes.lua). Loaded by
+-- include; returns a table of check(scene, made, solution, before), a list of what is wrong, `before` the solution of
+-- the step before in a history; and of rounding(scene, made, solution), what rounding leaves of a nodal force, and the
+-- greatest force.
 --
--- Tolerances. Methods end at a natural residual of 1e-10 of the greatest force and lose some digits where stiffnesses differ by eight
--- orders: forces count as known to 1e-6 of the greatest pressure, displacements to 1e-6 of the greatest one (`accuracy`: a scene that asks
--- for less says so), but never to more than that part of what the data of the scene allow. Displacements count as known to 1e-14 of the
--- size, which is what rounding leaves of a gap across an inclined plane. A node's force is known to 1e-9 of the greatest stress on the
--- scene's section, which may be much as a pressure where the node's share of the area is small. Rounding of large motions is 1e-12 of the
--- forces that strains of their size would make.
+-- Tolerances. Methods end at a natural residual of 1e-10 of the greatest force and lose some digits where stiffnesses
+-- differ by eight orders: forces count as known to 1e-6 of the greatest pressure, displacements to 1e-6 of the greatest
+-- one (`accuracy`: a scene that asks for less says so), but never to more than that part of what the data of the scene
+-- allow. Displacements count as known to 1e-14 of the size, which is what rounding leaves of a gap across an inclined
+-- plane. A node's force is known to 1e-9 of the greatest stress on the scene's section, which may be much as a pressure
+-- where the node's share of the area is small. Rounding of large motions is 1e-12 of the forces that strains of their
+-- size would make.
 
 local laws <const>, solids <const> = include "laws.lua", include "solids.lua"
 local nodes <const> = include "nodes.lua"
@@ -20,8 +23,9 @@ end
 local function norm(a) return dot(a, a)^0.5 end
 local function point(scene, node) return { node.x, node.y, scene.dimension == 3 and node.z or nil } end
 
--- 1. Scales: the greatest pressure or traction and the greatest displacement, within what the data of the scene allow: gaps, overlaps and
--- prescribed displacements, loads, and these times stiffnesses and flexibilities, of bending where bodies are thin.
+-- 1. Scales: the greatest pressure or traction and the greatest displacement, within what the data of the scene allow:
+-- gaps, overlaps and prescribed displacements, loads, and these times stiffnesses and flexibilities, of bending where
+-- bodies are thin.
 local function allowed(scene)
   local d <const>, size <const> = scene.dimension, scene.size
   local flexible, stiff = 0, 0
@@ -260,7 +264,9 @@ local function slipped_since(result, before)
   end
 end
 
-return function(scene, made, solution, before)
+local checks <const> = {}
+
+function checks.check(scene, made, solution, before)
   local complaints, contacts, supports = {}, {}, {}
   local function wrong(...) table.insert(complaints, (string.format(...))) end
   for k in ipairs(scene.contacts) do
@@ -296,3 +302,10 @@ return function(scene, made, solution, before)
   nodal.run(tol, wrong)
   return complaints, tol
 end
+
+function checks.rounding(scene, made, solution)
+  local nodal <const> = nodes(scene, made, solution)
+  return 1e-16 * nodal.stiffest * nodal.displacement, allowed(scene).load * scene.size ^ (scene.dimension - 1)
+end
+
+return checks

@@ -7,8 +7,9 @@ local laws = {}
 
 local function clamp(x, low, high) return math.max(low, math.min(high, x)) end
 
--- Each law: which numbers it has (stiffnesses k and k2, a bound g, a load f); its graph, r at v, on either side of its jumps; `bounds`:
--- the least and the greatest r, where they are not the number g; its energy at v, 0 where none is given, r = -d energy / dv.
+-- Each law: which numbers it has (stiffnesses k and k2, a bound g, a load f); its graph, r at v, on either side of its
+-- jumps; `bounds`: the least and the greatest r, where they are not the number g; its energy at v, 0 where none is
+-- given, r = -d energy / dv.
 local kinds = {
   prescribed = { graph = function(v) return v >= 0 and -math.huge or math.huge end, bounds = { -math.huge, math.huge } },
   elastic = { k = true, graph = function(v, k) return -k * v end, bounds = { -math.huge, math.huge },

@@ -238,7 +238,8 @@ function meshes.of(scene, body)
   for k, x in ipairs(mesh.points) do
     if not body.disc and body.bend ~= 0 then
       local middle, half = (body.low[1] + body.high[1]) / 2, (body.high[1] - body.low[1]) / 2
-      x[up] = x[up] + body.bend * (((x[1] - middle) / half) ^ 2 - (body.bend < 0 and 1 or 0)) * (body.high[up] - x[up]) / (body.high[up] - body.low[up])
+      local bulge = body.bend * (((x[1] - middle) / half) ^ 2 - (body.bend < 0 and 1 or 0))
+      x[up] = x[up] + bulge * (body.high[up] - x[up]) / (body.high[up] - body.low[up])
     end
     if scene.angle ~= 0 and body.disc then -- the disc's centre is turned, its mesh is not
       local c, turned = { body.low[1], body.low[2] }, nil

@@ -55,7 +55,7 @@ function act.displace(scene, body, name)
   if body.held > 0 or body.laws or body.taken.left or body.taken.right then return end
   body.held, body.displaced = 1, true
   local u = scene.size * scene.small * dice.power(-4, -2)
-  scene.reach, scene.moved = scene.reach + u, scene.moved + u
+  scene.reach = scene.reach + u
   local components = scene.dimension == 2 and { "x", "y" } or { "x", "y", "z" }
   local direction = { 0, scene.dimension == 2 and -u or 0, -u }
   direction[1] = dice.chance(0.5) and 0 or u * dice.between(-1, 1)
@@ -203,7 +203,8 @@ local function touch(scene)
   end
 end
 
--- What is rare: thin bodies, springs so weak that they hold nothing, materials over eight orders, order 2 on turned bodies.
+-- What is rare: thin bodies, springs so weak that they hold nothing, materials over eight orders, order 2 on turned
+-- bodies.
 local function widen(scene)
   scene.contrast = dice.pick{ 0.5, 3, 4 }
   if dice.chance(0.15) then scene.thin = dice.power(-3, -1) end
@@ -223,7 +224,7 @@ end
 
 local function random_scene(dimension, wide)
   local scene = { dimension = dimension, lines = {}, bodies = {}, contacts = {}, glues = {}, supports = {}, columns = {},
-                  wide = wide, small = 1, reach = 0, moved = 0 }
+                  wide = wide, small = 1, reach = 0 }
   scene.angle = dice.chance(0.25) and dice.between(-1.5, 1.5) or 0
   scene.size, scene.E, scene.contrast = dice.chance(0.7) and 1 or dice.power(-3, 3), dice.power(0, 6), dice.chance(0.5) and 0.5 or 3
   scene.stress = scene.E * dice.power(-4, -2)
@@ -232,11 +233,7 @@ local function random_scene(dimension, wide)
   scene.friction = dice.weighted{ "none", 4, "tresca", 3, "coulomb", 4 }
   scene.element = dice.pick{ "P1", "Q1", "P2", "Q2" }
   if wide then widen(scene) end
-  if scene.angle ~= 0 then
-    local c, s = format(math.cos(scene.angle)), format(math.sin(scene.angle))
-    if dimension == 2 then say(scene, "local function turn(x, y) return %s * x - %s * y, %s * x + %s * y end", c, s, s, c)
-    else say(scene, "local function turn(x, y, z) return %s * x - %s * z, y, %s * x + %s * z end", c, s, s, c) end
-  end
+  if scene.angle ~= 0 then solids.say_turn(scene) end
   columns(scene, dice.weighted(dimension == 2 and { 1, 4, 2, 5, 3, 3, 4, 2, 5, 1, 6, 1 } or { 1, 4, 2, 3, 3, 1 }))
   local names = {}
   for k, body in ipairs(scene.bodies) do names[k] = body.name end

@@ -30,6 +30,12 @@ function solids.turn(scene, p)
   return q
 end
 
+function solids.say_turn(scene)
+  local c, s = format(math.cos(scene.angle)), format(math.sin(scene.angle))
+  if scene.dimension == 2 then say(scene, "local function turn(x, y) return %s * x - %s * y, %s * x + %s * y end", c, s, s, c)
+  else say(scene, "local function turn(x, y, z) return %s * x - %s * z, y, %s * x + %s * z end", c, s, s, c) end
+end
+
 local function side_of(scene, name)
   local up = scene.dimension
   local axis = (name == "left" or name == "right") and 1 or (name == "bottom" or name == "top") and up or 2
@@ -269,39 +275,6 @@ function solids.on(scene, x, body, side)
   local n, p, distance = solids.turn(scene, normal_of(scene, side)), solids.turn(scene, (side_box(scene, body, side))), 0
   for k in ipairs(x) do distance = distance + n[k] * (x[k] - p[k]) end
   return math.abs(distance) < 1e-4 * scene.size + math.abs(body.bend or 0)
-end
-
--- Is the node that a message names on a side that overlaps what it touches, and do laws of supports prescribe where the node is along
--- the normal there? Sides are parallel or perpendicular to one another; on a ball the normal at a node has both directions.
-function solids.contradicted(scene, message)
-  local x, name = {}, message:match "node %d+ of '(.-)'" or message:match "contact of '(.-)'"
-  for number in (message:match "at %((.-)%)" or ""):gmatch "[^, ]+" do table.insert(x, tonumber(number)) end
-  local function on(body, side) return solids.on(scene, x, body, side) end
-  local function prescribed(contact, where)
-    for _, support in ipairs(scene.supports) do
-      local law = support.law
-      if law and support.body == where.body.index and on(where.body, support.side) then
-        local normal, tangential = law.normal and law.normal.name == "prescribed", law.tangential and law.tangential.name == "prescribed"
-        local parallel = side_of(scene, support.side) == side_of(scene, where.side)
-        if (normal and tangential) or (not contact.ball and (parallel and normal or not parallel and tangential)) then return true end
-      end
-    end
-  end
-  local function stuck(contact, where) -- by friction that nothing overcomes, on another side
-    for _, other in ipairs(scene.contacts) do
-      for _, side in pairs{ other.first, other.second } do
-        local huge = other ~= contact and other.friction and other.friction.value == math.huge
-        if huge and side.body == where.body and on(side.body, side.side) and side_of(scene, side.side) ~= side_of(scene, where.side) then return true end
-      end
-    end
-  end
-  for _, contact in ipairs(scene.contacts) do
-    for _, where in pairs{ contact.first, contact.second } do
-      local named <const> = contact.overlap and where.body.name == name and on(where.body, where.side)
-      if named and (stuck(contact, where) or prescribed(contact, where)) then return true end
-    end
-  end
-  return false
 end
 
 -- Is a node's normal that of its side? Given friction then acts also where supports hold the node along it.
