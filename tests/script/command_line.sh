@@ -59,6 +59,7 @@ expect "a variable called as what Lua has" 0 $'{ 1 }\n{ 2 }' '' bash -c 'printf 
 expect "help on a function typed, and its source" 0 $'A Lua function of 1 argument, written at prompt:1; source(f), or f??, shows it.\n-- prompt:1\nlocal function f(x)\n  return x^2\nend\n-- prompt:1\ng = function(x) local k <const> = 2 return k * x end' '' \
   bash -c 'printf "%s\n" "local function f(x)" "  return x^2" "end" "g = function(x) local k <const> = 2 return k * x end" "f?" "f??" "g??" | "$0"' "$dotyk"
 expect "source of a text" 0 'this function was given as a text, which is not kept' '' "$dotyk" -e 'source(load "return 1")'
+expect "globals that refuse a new one" 0 $'5\n7' '' bash -c 'printf "%s\n" "do setmetatable(_G, { __newindex = error }) end" 5 "_ + 2" | "$0"' "$dotyk"
 expect "the prompt from a pipe" 1 $'3\n3\n{ 1, "x" }\n5' "prompt:1: unknown variable 'nix'" \
   bash -c 'printf "%s\n" "1 +" "2" "_" "local t = {" "1, [[x]] }" t "= 5" nix | "$0"' "$dotyk"
 expect "a full disk" 1 '' 'dotyk: standard output could not be written: No space left on device' \

@@ -102,6 +102,86 @@ refused(function() debug.setmetatable(material, debug.getmetatable(io.stdout)) e
 refused(function() debug.setuservalue(material, {}) end, "debug.setuservalue: an object of dotyk's keeps its value")
 refused(function() debug.getregistry() end, "debug.getregistry: the registry is Lua's and dotyk's own")
 refused(function() table.sort({ 2, 1 }, function(a, b) debug.setlocal(2, 1, nil) return a < b end) end, "debug.setlocal: expected a function written in Lua")
+-- Nor looked into: what a hook or a callback finds there would be no value of Lua's.
+check.equal({ debug.getupvalue(dotyk.solve, 1) }, {})
+check.equal({ debug.getupvalue(debug.setupvalue, 1) }, {})
+refused(function() debug.setmetatable(debug.upvalueid(dotyk.solve, 1), debug.getmetatable(material)) end, "keeps its metatable")
+do
+  local seen = {}
+  ("x"):rep(5000):gsub("x", function() seen[#seen + 1] = debug.getlocal(2, 1) end)
+  table.sort({ 2, 1 }, function(a, b) seen[#seen + 1] = debug.getlocal(2 + (1 << 32), 1) return a < b end)
+  check.equal(seen, {})
+  refused(function() table.sort({ 2, 1 }, function(a, b) debug.setlocal(2 + (1 << 32), 1, nil) return a < b end) end, "debug.setlocal: expected a function")
+end
+-- The state of a loop and a table that is being filled are Lua's own.
+local function set_unnamed(level, value)
+  for n = 1, 50 do
+    if (debug.getlocal(level + 1, n) or ""):find "^%(" then debug.setlocal(level + 1, n, value) end
+  end
+end
+local function three() set_unnamed(2, "text") return 1, 2, 3 end
+for _, f in ipairs{ function() for _ = 1, 3 do set_unnamed(1, {}) end end, function() return { three(), three() } end } do
+  check.that(select(2, pcall(f)):find("debug.setlocal: expected a variable that has a name", 1, true))
+end
+collectgarbage()
+local function varied(...) debug.setlocal(1, -1, 5) return ... end
+check.equal(varied(1), 5)
+-- Compiled chunks may be wrong in any way; no way takes one.
+do
+  local compiled <const> = string.dump(function() end)
+  local path <const> = "compiled.lua"
+  assert(io.open(path, "wb")):write(compiled):close()
+  check.equal(select(2, load(compiled, "x", "b")), "attempt to load a binary chunk (mode is 't')")
+  check.equal(select(2, load(coroutine.wrap(function() coroutine.yield(compiled) end), "x")), "attempt to load a binary chunk (mode is 't')")
+  check.that(select(2, loadfile(path, "b")):find "binary chunk")
+  for _, run in ipairs{ dofile, function() require "compiled" end } do
+    check.that(select(2, pcall(run, path)):find("attempt to load a binary chunk", 1, true))
+  end
+  os.remove(path)
+end
+-- Metamethods moved elsewhere, or called with anything.
+do
+  local file <const>, one <const>, two <const> = debug.getmetatable(io.stdout), debug.getmetatable(material), debug.getmetatable(dotyk.rigid.plane{ point = { 0, 0 }, normal = { 0, 1 } })
+  for _, event in ipairs{ "__gc", "__close", "__eq" } do
+    for _, value in ipairs{ io.stdout, 5, {}, print, dotyk.mesh, debug.upvalueid(dotyk.solve, 1) } do
+      one[event](value, value)
+      two[event](value, value)
+    end
+    one[event](nil)
+    one[event]()
+  end
+  check.equal(tostring(material), tostring(dotyk.material{ E = 1 }))
+  local gc <const> = file.__gc
+  file.__gc = one.__gc
+  for _ = 1, 9 do io.open(debug.getinfo(1, "S").source:sub(2)) end
+  collectgarbage()
+  file.__gc = gc
+  local strict <const>, globals <const> = getmetatable(dotyk.mesh), getmetatable(_G)
+  for _, value in ipairs{ 5, "text", print, io.stdout, {} } do
+    refused(function() strict.__index(value, "x") end, "unknown field 'x'")
+    refused(function() globals.__index(value, "x") end, "unknown variable 'x'")
+    strict.__absent = value
+    refused(function() return dotyk.mesh.x end, "unknown field 'x'")
+    strict.__absent = nil
+  end
+end
+-- Lua's own coroutine functions, which a hook could call past the guard of the stack, are called nowhere.
+do
+  local called <const> = {}
+  local wrapped = coroutine.wrap(function() coroutine.yield(1) error "x" end)
+  debug.sethook(function()
+    local f <const> = debug.getinfo(2, "f").func
+    if debug.getinfo(2, "S").what == "C" then called[f] = true end
+  end, "c")
+  local again <const> = coroutine.wrap(print)
+  local first <const> = wrapped()
+  local ok <const>, message <const> = pcall(wrapped)
+  debug.sethook()
+  check.equal({ first, ok }, { 1, false })
+  check.that(message:find ": x$", message)
+  for f in pairs{ [coroutine.wrap] = 0, [wrapped] = 0, [pcall] = 0, [error] = 0, [coroutine.yield] = 0, [debug.sethook] = 0 } do called[f] = nil end
+  check.equal(next(called), nil)
+end
 local function changed() local x = 1 debug.setlocal(1, 1, 5) return x end
 check.equal(changed(), 5)
 refused(function() debug.setlocal(1000, 1, 5) end, "level out of range")

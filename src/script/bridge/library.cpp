@@ -113,7 +113,7 @@ int show_object(lua_State* L) {
 // Makes the metatable of a class.
 void make_metatable(lua_State* L, const Type& type) {
   luaL_newmetatable(L, type.name.c_str());
-  add_object_metamethods(L);
+  add_object_metamethods(L, type.name);
   lua_newtable(L);
   lua_pushvalue(L, -1);
   lua_setfield(L, -3, "__methods");

@@ -12,24 +12,17 @@
 namespace dotyk::script {
 namespace {
 
-// The metatable was checked by whoever calls these only in the usual case: a
-// script may reach them by getmetatable, so they check for themselves that the
-// value is a userdata with a metatable that has this very function.
-Holder* holder_of(lua_State* L, int index, const char* event, lua_CFunction self) {
-  if (lua_type(L, index) != LUA_TUSERDATA || luaL_getmetafield(L, index, event) == LUA_TNIL) return nullptr;
-  const bool ours = lua_tocfunction(L, -1) == self;
-  lua_pop(L, 1);
-  return ours ? static_cast<Holder*>(lua_touserdata(L, index)) : nullptr;
-}
+// A script may call metamethods with any values, or move them into other metatables, so each checks what it gets.
+// Upvalue 1 of release and equal is the type's name.
+Holder* holder_at(lua_State* L, int index) { return object_at(L, index, lua_tostring(L, lua_upvalueindex(1))); }
 
 int release(lua_State* L) {
-  if (auto* holder = holder_of(L, 1, "__gc", release)) holder->pointer.reset();
+  if (auto* holder = holder_at(L, 1)) holder->pointer.reset();
   return 0;
 }
 
 int equal(lua_State* L) {
-  const auto* a = holder_of(L, 1, "__eq", equal);
-  const auto* b = holder_of(L, 2, "__eq", equal);
+  const auto *a = holder_at(L, 1), *b = holder_at(L, 2);
   lua_pushboolean(L, a && b && a->pointer == b->pointer);
   return 1;
 }
@@ -37,7 +30,7 @@ int equal(lua_State* L) {
 // Gives nothing, which is nil, where there is no error.
 int unknown_field(lua_State* L) {
   if (lua_type(L, 2) != LUA_TSTRING) return 0;
-  if (luaL_getmetafield(L, 1, "__absent") != LUA_TNIL) {
+  if (luaL_getmetafield(L, 1, "__absent") == LUA_TTABLE) {
     lua_pushvalue(L, 2);
     if (lua_rawget(L, -2) != LUA_TNIL) return 0;
   }
@@ -76,10 +69,12 @@ std::shared_ptr<void> checked_object(lua_State* L, int index, const char* type) 
   return holder->pointer;
 }
 
-void add_object_metamethods(lua_State* L) {
-  set_field(L, "__gc", release);
-  set_field(L, "__close", release);
-  set_field(L, "__eq", equal);
+void add_object_metamethods(lua_State* L, const std::string& type) {
+  for (const auto& [event, function] : {luaL_Reg{"__gc", release}, {"__close", release}, {"__eq", equal}}) {
+    push(L, type);
+    lua_pushcclosure(L, function, 1);
+    lua_setfield(L, -2, event);
+  }
   set_field(L, "__metatable", "an object of dotyk");
 }
 
@@ -92,6 +87,7 @@ std::string meta_text(lua_State* L, int index, const char* field) {
 
 std::vector<std::string> string_keys(lua_State* L, int index) {
   std::vector<std::string> names;
+  if (!lua_istable(L, index)) return names;
   index = lua_absindex(L, index);
   luaL_checkstack(L, 4, nullptr);
   for (lua_pushnil(L); lua_next(L, index); lua_pop(L, 1)) {

@@ -49,8 +49,8 @@ std::shared_ptr<T> object(lua_State* L, int index) {
   return std::static_pointer_cast<T>(checked_object(L, index, Wrapped<std::remove_const_t<T>>::name));
 }
 
-// Adds the metamethods every object has (__gc, __close, __eq) to the metatable on top of the stack.
-void add_object_metamethods(lua_State* L);
+// Adds the metamethods every object has (__gc, __close, __eq) to the metatable of that type, on top of the stack.
+void add_object_metamethods(lua_State* L, const std::string& type);
 
 struct Record;
 
@@ -124,7 +124,7 @@ void make_strict(lua_State* L, const std::string& name);
 // The text of a metafield of the value at index, empty where it has none.
 std::string meta_text(lua_State* L, int index, const char* field);
 
-// The string keys of the table at index, sorted.
+// The string keys of the table at index, sorted; none of another value.
 std::vector<std::string> string_keys(lua_State* L, int index);
 
 }  // namespace dotyk::script

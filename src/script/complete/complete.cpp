@@ -300,8 +300,11 @@ struct Request {
   Completion result;
 };
 
+Request* asked = nullptr;  // while it is answered; not an argument, for a hook finds the function and may call it with any
+
 int run(lua_State* L) {
-  auto& request = *static_cast<Request*>(lua_touserdata(L, 1));
+  if (!asked) return 0;
+  auto& request = *asked;
   const auto context = read_context(request.text);
   try {
     request.result = candidates(L, Library::of(L), context);
@@ -323,9 +326,10 @@ int run(lua_State* L) {
 
 Completion complete(lua_State* L, const std::string& text) {
   Request request{text, {}};
+  asked = &request;
   lua_pushcfunction(L, run);
-  lua_pushlightuserdata(L, &request);
-  if (lua_pcall(L, 1, 0, 0) != LUA_OK) lua_pop(L, 1);
+  if (lua_pcall(L, 0, 0, 0) != LUA_OK) lua_pop(L, 1);
+  asked = nullptr;
   return request.result;
 }
 

@@ -1,11 +1,18 @@
 #include "script/guard/lua_guards.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <cstring>
+#include <stdexcept>
+#include <string>
 
 #include "script/prompt/interrupt.hpp"
+#include "script/bridge/library.hpp"
 #include "script/bridge/lua.hpp"
 #include "script/bridge/position.hpp"
 #include "script/guard/replaced.hpp"
+#include "script/guard/safe.hpp"
 
 namespace dotyk::script {
 namespace {
@@ -73,29 +80,48 @@ int remove(lua_State* L) {
 
 [[noreturn]] void refuse(lua_State* L, const char* name, const char* why) { raise(L, name, why); }
 
+// Of debug. What is C++'s, or the interpreter's own, is neither shown nor changed: a wrong value there ends the program.
 constexpr char of_lua[] = "expected a function written in Lua, not one of Lua's or dotyk's own";
 
-// What a function written in C++ holds is looked at by nobody again.
+int get_upvalue(lua_State* L) { return lua_iscfunction(L, 1) ? 0 : original(L); }
+
 int set_upvalue(lua_State* L) {
   if (lua_iscfunction(L, 1)) refuse(L, "debug.setupvalue", of_lua);
   return original(L);
 }
 
-// Nor are the arguments of one that runs.
-int set_local(lua_State* L) {
-  const int first = lua_isthread(L, 1) ? 2 : 1;
-  lua_State* thread = first == 2 ? lua_tothread(L, 1) : L;
-  const auto level = lua_tointeger(L, first);
-  lua_Debug frame;
-  if (level < 0 || level > 1000000 || !lua_getstack(thread, static_cast<int>(level), &frame)) return original(L);
+// The frame that debug.getlocal and setlocal are asked about, ([thread,] level, …), and its thread; null: none.
+lua_State* frame_asked(lua_State* L, lua_Debug& frame) {
+  lua_State* thread = lua_isthread(L, 1) ? lua_tothread(L, 1) : L;
+  const int level = static_cast<int>(lua_tointeger(L, lua_isthread(L, 1) ? 2 : 1));  // cut off as Lua does it
+  if (level < 0 || !lua_getstack(thread, level, &frame)) return nullptr;
   lua_getinfo(thread, "S", &frame);
+  return thread;
+}
+
+int get_local(lua_State* L) {
+  lua_Debug frame;
+  const bool hidden = !lua_isfunction(L, lua_isthread(L, 1) ? 2 : 1) && frame_asked(L, frame) && frame.what[0] == 'C';
+  return hidden ? (lua_pushnil(L), 1) : original(L);
+}
+
+int set_local(lua_State* L) {
+  lua_Debug frame;
+  lua_State* thread = frame_asked(L, frame);
+  if (!thread) return original(L);
   if (frame.what[0] == 'C') refuse(L, "debug.setlocal", of_lua);
+  luaL_argcheck(L, lua_checkstack(thread, 1), 1, "stack overflow");
+  const char* name = lua_getlocal(thread, &frame, static_cast<int>(lua_tointeger(L, lua_isthread(L, 1) ? 3 : 2)));
+  if (name) lua_pop(thread, 1);
+  // The state of a loop, or a table that is being filled: Lua relies on what it has put there.
+  if (name && name[0] == '(' && std::strcmp(name, "(vararg)") != 0)
+    refuse(L, "debug.setlocal", "expected a variable that has a name");
   return original(L);
 }
 
-// The metatable of a userdata says what its bytes are.
+// The metatable of a userdata says what its bytes are. Numbers and pointers share one each.
 int set_metatable_of_value(lua_State* L) {
-  if (lua_type(L, 1) == LUA_TUSERDATA) refuse(L, "debug.setmetatable", "an object of dotyk's, or a file, keeps its metatable");
+  if (lua_isuserdata(L, 1)) refuse(L, "debug.setmetatable", "an object of dotyk's, or a file, keeps its metatable");
   return original(L);
 }
 
@@ -106,13 +132,80 @@ int set_user_value(lua_State* L) {
 }
 int get_registry(lua_State* L) { refuse(L, "debug.getregistry", "the registry is Lua's and dotyk's own"); }
 
+// load and loadfile: the mode, argument 3 or 2, allows text alone. Lua does not look at what a compiled chunk holds.
+int load_text(lua_State* L) {
+  if (lua_gettop(L) < 3) lua_settop(L, 3);
+  lua_pushliteral(L, "t");
+  lua_replace(L, 3);
+  return original(L);
+}
+int load_text_file(lua_State* L) {
+  if (lua_isstring(L, 1)) require_below(L, 1);
+  if (lua_gettop(L) < 2) lua_settop(L, 2);
+  lua_pushliteral(L, "t");
+  lua_replace(L, 2);
+  return original(L);
+}
+
+// dofile; Lua's own would take a compiled chunk.
+int run_file(lua_State* L) {
+  const char* file = luaL_optstring(L, 1, nullptr);
+  if (file) require_below(L, 1);
+  lua_settop(L, 1);
+  if (luaL_loadfilex(L, file, "t") != LUA_OK) return lua_error(L);
+  lua_callk(L, 0, LUA_MULTRET, 0, [](lua_State* state, int, lua_KContext) { return lua_gettop(state) - 1; });
+  return lua_gettop(L) - 1;
+}
+
+// What require does after package.preload: upvalue 1 is the table package.
+int find_lua_file(lua_State* L) {
+  const char* module = luaL_checkstring(L, 1);
+  lua_getfield(L, lua_upvalueindex(1), "path");
+  const std::string path = luaL_checkstring(L, -1);
+  const std::string name = luaL_gsub(L, module, ".", "/");
+  std::string tried;
+  for (std::size_t start = 0; start <= path.size();) {
+    const auto end = std::min(path.find(';', start), path.size());
+    const std::string file = luaL_gsub(L, path.substr(start, end - start).c_str(), "?", name.c_str());
+    start = end + 1;
+    if (file.empty()) continue;
+    try {
+      if (const auto& folder = Library::of(L).folder) folder->require(file);
+    } catch (const std::runtime_error& error) {
+      tried += std::string("\n\t") + error.what();
+      continue;
+    }
+    if (access(file.c_str(), R_OK) != 0) {
+      tried += "\n\tno file '" + file + "'";
+      continue;
+    }
+    if (luaL_loadfilex(L, file.c_str(), "t") != LUA_OK) return lua_error(L);
+    push(L, file);
+    return 2;
+  }
+  push(L, tried.empty() ? tried : tried.substr(2));
+  return 1;
+}
+
+void search_text_alone(lua_State* L) {
+  lua_getglobal(L, "package");
+  lua_getfield(L, -1, "searchers");
+  lua_pushvalue(L, -2);
+  lua_pushcclosure(L, find_lua_file, 1);
+  lua_rawseti(L, -2, 2);
+  lua_pop(L, 2);
+}
+
 }  // namespace
 
 void guard_lua(lua_State* L) {
   guard_patterns(L);
   replace(L, {{"string", "rep", repeat}, {"table", "move", move}, {"table", "insert", insert}, {"table", "remove", remove}});
-  replace(L, {{"debug", "setupvalue", set_upvalue}, {"debug", "setlocal", set_local}, {"debug", "setmetatable", set_metatable_of_value},
+  replace(L, {{"debug", "getupvalue", get_upvalue}, {"debug", "setupvalue", set_upvalue},
+              {"debug", "getlocal", get_local}, {"debug", "setlocal", set_local}, {"debug", "setmetatable", set_metatable_of_value},
               {"debug", "setuservalue", set_user_value}, {"debug", "getregistry", get_registry}});
+  replace(L, {{"_G", "load", load_text}, {"_G", "loadfile", load_text_file}, {"_G", "dofile", run_file}});
+  search_text_alone(L);
 }
 
 }  // namespace dotyk::script

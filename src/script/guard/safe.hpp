@@ -10,9 +10,12 @@ namespace dotyk::script {
 
 // Before the script runs, after everything is loaded. From then on, below the folder only:
 // io.open, lines, input, output; os.remove, rename; loadfile, dofile, require (Lua files alone), and all
-// of dotyk's arguments of Kind::file. load and its kin take text, no compiled chunks. debug keeps
-// traceback alone. What is refused raises at the script's line.
+// of dotyk's arguments of Kind::file. debug keeps traceback alone. What is refused raises at the script's line.
 void make_safe(lua_State* L, const Folder& folder);
+
+// Raises where the file named at that stack index is not below the folder of a run with --safe; for functions that replace
+// Lua's own (replaced.hpp).
+void require_below(lua_State* L, int index);
 
 // What could undo a count of instructions: debug keeps traceback alone, and files their metatable, whose __gc would run
 // where nothing counts. `option` is the one that asks for it, named where a script tries.

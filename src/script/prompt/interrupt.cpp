@@ -43,7 +43,7 @@ void disarm(lua_State* L) {
 
 // A message handler runs without hooks after a hook's error, so the innermost xpcall gets one that passes the message on.
 // (No wrapper around every handler: it would stand in their stack of calls.)
-lua_CFunction lua_xpcall = nullptr;
+lua_CFunction lua_xpcall = nullptr, lua_coroutine_resume = nullptr;
 
 void pass_handler_over(lua_State* L) {
   constexpr int most = 5000;  // levels: lua_getstack counts from the innermost each time
@@ -148,13 +148,19 @@ int with_thread(lua_State* L) {
   return original(L);
 }
 
-// A function that coroutine.wrap makes, upvalue 1; its thread is upvalue 2.
+// What coroutine.wrap makes; upvalue 1 is the thread. Lua's own function is called nowhere: a hook would find it.
 int call_wrapped(lua_State* L) {
-  const Running now(L, lua_tothread(L, lua_upvalueindex(2)));
+  lua_State* thread = lua_tothread(L, lua_upvalueindex(1));
+  const Running now(L, thread);
   lua_pushvalue(L, lua_upvalueindex(1));
   lua_insert(L, 1);
-  lua_call(L, lua_gettop(L) - 1, LUA_MULTRET);
-  return lua_gettop(L);
+  const int count = lua_coroutine_resume(L);
+  if (lua_toboolean(L, -count)) return count - 1;
+  if (lua_status(thread) > LUA_YIELD) {  // it has ended by an error: its variables are closed
+    lua_resetthread(thread);
+    lua_xmove(thread, L, 1);
+  }
+  return lua_error(L);
 }
 
 // A coroutine begins to count afresh: what it might do before the first look is counted at once.
@@ -166,11 +172,9 @@ int create(lua_State* L) {
 // coroutine.wrap: the function Lua makes has its thread as first upvalue.
 int wrap(lua_State* L) {
   used += interval;
-  lua_pushvalue(L, lua_upvalueindex(1));
-  lua_insert(L, 1);
-  lua_call(L, lua_gettop(L) - 1, 1);
+  original(L);
   lua_getupvalue(L, -1, 1);
-  lua_pushcclosure(L, call_wrapped, 2);
+  lua_pushcclosure(L, call_wrapped, 1);
   return 1;
 }
 
@@ -224,6 +228,10 @@ void watch_interrupts(lua_State* L) {
   running = L;
   measure_stack();
   constexpr const char* threads = "coroutine";
+  lua_getglobal(L, threads);
+  lua_getfield(L, -1, "resume");
+  lua_coroutine_resume = lua_tocfunction(L, -1);
+  lua_pop(L, 2);
   replace(L, {{threads, "resume", with_thread}, {threads, "close", with_thread}, {threads, "wrap", wrap}, {threads, "create", create}});
   lua_getglobal(L, "xpcall");
   lua_xpcall = lua_tocfunction(L, -1);

@@ -13,9 +13,6 @@ namespace {
 
 constexpr char first_name[] = "__keep_locals";  // of a variable that comes before all others: a table, NAME = true of what is <close>
 
-lua_Debug chunk;  // its frame, while it runs
-bool chunk_runs = false;
-
 // Reads Lua from left to right and blanks out <const>, wherever it stands: line for line the text stays what it was.
 class Declarations {
  public:
@@ -76,9 +73,8 @@ class Declarations {
   std::size_t at_ = 0;
 };
 
-// The chunk's variables as global ones.
-void keep(lua_State* L) {
-  chunk_runs = false;
+// The variables of the chunk of that frame as global ones, where it is one of keep_locals().
+void keep(lua_State* L, const lua_Debug& chunk) {
   if (!lua_checkstack(L, 8)) return;
   const char* first = lua_getlocal(L, &chunk, 1);
   if (!first) return;
@@ -104,14 +100,12 @@ void keep(lua_State* L) {
 // __close of the first variable, while the frame that ends still stands. After an error it does not.
 int keep_at_end(lua_State* L) {
   lua_Debug frame;
-  if (lua_isnil(L, 2) && lua_getstack(L, 1, &frame)) keep(L);
-  chunk_runs = false;
+  if (lua_isnil(L, 2) && lua_getstack(L, 1, &frame)) keep(L, frame);
   return 0;
 }
 
 // The first variable's value, upvalue 1. The name by which the text calls this function goes again.
 int first_value(lua_State* L) {
-  chunk_runs = lua_getstack(L, 1, &chunk);
   lua_pushglobaltable(L);
   lua_pushstring(L, first_name);
   lua_pushnil(L);
@@ -151,7 +145,14 @@ std::string keep_locals(lua_State* L, const std::string& text, const std::string
 }
 
 void keep_locals_after_error(lua_State* L) {
-  if (chunk_runs) keep(L);
+  lua_Debug frame;
+  int inside = -1, beyond = 1;  // the chunk's frame is the outermost one
+  while (lua_getstack(L, beyond - 1, &frame)) inside = beyond - 1, beyond *= 2;
+  for (int outside = beyond - 1; outside - inside > 1;) {
+    const int middle = (inside + outside) / 2;
+    (lua_getstack(L, middle, &frame) ? inside : outside) = middle;
+  }
+  if (inside >= 0 && lua_getstack(L, inside, &frame)) keep(L, frame);
 }
 
 }  // namespace dotyk::script

@@ -36,7 +36,7 @@ class Prompt {
   int run() {
     if (terminal_) {
       keep_session();
-      if (const auto reason = load_history(); !reason.empty()) std::fprintf(stderr, "dotyk: history is not kept: %s\n", reason.c_str());
+      if (const auto& reason = load_history(); !reason.empty()) std::fprintf(stderr, "dotyk: history is not kept: %s\n", reason.c_str());
       std::printf("dotyk %s – help() lists what there is, Ctrl-D leaves\n", DOTYK_VERSION);
     }
     bool failed = false;
@@ -188,8 +188,11 @@ class Prompt {
     auto error = interpreter_.call(0, LUA_MULTRET);
     const int count = lua_gettop(L_) - base;
     if (!error && count > 0 && !lua_isnil(L_, base + 1)) {
+      lua_pushglobaltable(L_);
+      lua_pushliteral(L_, "_");
       lua_pushvalue(L_, base + 1);
-      lua_setglobal(L_, "_");
+      lua_rawset(L_, -3);  // by no metamethod, whose error nothing here would catch
+      lua_pop(L_, 1);
     }
     if (!error && count > 0) error = show_values(count);
     lua_settop(L_, base);

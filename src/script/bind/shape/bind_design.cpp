@@ -23,7 +23,7 @@ Dual take_dual(lua_State* L, Eigen::Index size, const std::string& what) {
   Dual dual{0, algebra::Vector::Zero(size)};
   if (lua_type(L, -1) == LUA_TNUMBER) {
     dual.value = lua_tonumber(L, -1);
-  } else if (meta_text(L, -1, "__name") == "dual number") {
+  } else if (lua_istable(L, -1) && meta_text(L, -1, "__name") == "dual number") {
     lua_pushliteral(L, "value");
     lua_rawget(L, -2);
     lua_pushliteral(L, "gradient");
