@@ -74,8 +74,8 @@ for number, kind in ipairs(kinds) do
   table.insert(series, { name = kind.name, x = x, y = p, style = "line" })
   if kind.exact then
     local bx <const>, by <const> = {}, {}
-    for i = 0, 24 do
-      bx[#bx + 1] = (kind.touches or half) * i / 24
+    for i = 0, 240 do
+      bx[#bx + 1] = (kind.touches or half) * i / 240
       by[#by + 1] = kind.exact(bx[#bx]) / unit
     end
     table.insert(series, { name = kind.name == "springs" and "beam theory" or nil, x = bx, y = by, reference = true })

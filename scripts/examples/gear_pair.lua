@@ -125,6 +125,6 @@ local units = { length = "mm", stress = "MPa" }
 dotyk.pictures{ file = "images/gear_pair.png", columns = 2,
                 s:picture{ field = "von_mises", units = units, pressure = "none", deform = 1, view = { -0.55, -0.6, 1 }, title = "Two pairs of teeth" },
                 s:picture{ field = "von_mises", units = units, pressure = "none", deform = 1, view = { 0, 0, 1 }, window = { x - 4, y - 3, 0, x + 4, y + 3, face }, title = "The first pair, end on" },
-                s:picture{ map = contacts[1], units = units, window = { 6, -2.9, 13, -0.9 }, title = "First flank, unrolled, where it presses" },
-                s:picture{ map = contacts[2], units = units, window = { 13, 1.1, 20, 3.1 }, title = "Second flank, likewise" } }
+                s:picture{ map = contacts[1], units = units, window = { 0, -4, face, 0 }, title = "First flank, unrolled, where it presses" },
+                s:picture{ map = contacts[2], units = units, window = { 0, 0, face, 3.1 }, title = "Second flank, likewise" } }
 print "images/gear_pair.png"

@@ -171,5 +171,5 @@ for quarters = 8, 16 do
   end
 end
 assert(#continuum.y == 2 and math.abs(math.abs(continuum.y[1] - continuum.y[2]) - 2) < 1e-9)
-dotyk.chart{ file = "images/several_family.png", x = "coefficient of friction", y = "displacement of B along the floor", series = { isolated, continuum } }
+dotyk.chart{ file = "images/several_family.png", x = "coefficient of friction", y = "displacement of B along the floor", y_range = { -0.1, 2.1 }, series = { isolated, continuum } }
 print "images/several_solutions.png, several_open.png, several_stick.png, several_slip.png, several_family.png"

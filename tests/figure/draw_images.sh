@@ -16,11 +16,11 @@ quick="first examples/friction examples/asperities examples/two_blocks examples/
   papers/alesawi/augmented_lagrangian studies/methods/coulomb_loop studies/stability/uzawa studies/stability/locking
   studies/stability/load_limit studies/stability/stretched papers/horak/beam_foundations papers/horak/beam_breaking"
 rounding="studies/methods/penalty studies/stability/degenerate studies/stability/rho studies/stability/contrast studies/stability/multigrid
-  studies/stability/weak_springs studies/stability/overconstrained studies/stability/penalty papers/horak/beam_examples studies/accuracy/beam_laws"
+  studies/stability/weak_springs studies/stability/screws studies/stability/overconstrained studies/stability/penalty papers/horak/beam_examples studies/accuracy/beam_laws"
 long="examples/punch studies/accuracy/cattaneo_mindlin studies/accuracy/mortar papers/vondrak/cont examples/roller examples/wall
   papers/dostal/three_blocks examples/plate examples/plate_friction examples/thermoelastic papers/netuka/semicoercive
   papers/tr965/inf_sup papers/tr965/open_question studies/matrices/cycles papers/tr965/alternating studies/accuracy/shape_derivatives
-  papers/vondrak/iter studies/stability/coulomb studies/stability/cycling studies/stability/inf_sup studies/stability/screws
+  papers/vondrak/iter studies/stability/coulomb studies/stability/cycling studies/stability/inf_sup
   papers/tr965/cube_with_friction papers/alesawi/augmented_estimates papers/alesawi/raised_penalties papers/tr965/friction_cells
   papers/netuka/semicoercive_theorems papers/netuka/semicoercive_working_sets papers/horak_fibinger/plate_edges
   papers/tr965/screws_with_friction papers/tr965/normalisation papers/tr965/report_scaling papers/tr965/rates

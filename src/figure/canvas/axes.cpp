@@ -45,6 +45,11 @@ double Axis::pixel(double value) const {
   return static_cast<double>(std::clamp<Wide>(at, -most_pixels, most_pixels));
 }
 
+double Axis::value(double pixel) const {
+  const Wide a = place(*this, low), at = a + (pixel - from) / (to - from) * (place(*this, high) - a);
+  return static_cast<double>(log ? std::pow(Wide{10}, at) : at);
+}
+
 double Axis::pixels_per_unit() const { return static_cast<double>(std::min<Wide>(per_unit(*this), most_pixels)); }
 
 double steepness(const Axis& x, const Axis& y, double slope) {

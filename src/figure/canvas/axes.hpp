@@ -68,6 +68,7 @@ struct Axis {
 
   bool shows(double value) const;            // finite, and positive where logarithmic
   double pixel(double value) const;
+  double value(double pixel) const;          // of an axis without a break
   double pixels_per_unit() const;            // or per decade
 };
 
@@ -82,6 +83,7 @@ struct Axes {
   double tick = 0.32;              // em that ticks reach into the room; negative: out of it
   std::optional<Point> pole = {};  // of polar axes: x is an angle in degrees, and y counts pixels from here
   Point at(double x_value, double y_value) const;
+  std::array<double, 2> values(Point p) const { return {x.value(p.x), y.value(p.y)}; }
   // A line through points of these coordinates, in pixels.
   std::vector<Point> line(const std::vector<double>& x_values, const std::vector<double>& y_values) const {
     std::vector<Point> out;

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "figure/canvas/plane.hpp"
-#include "figure/door/picture.hpp"
+#include "figure/door/marks.hpp"
 
 namespace dotyk::figure {
 
@@ -97,6 +97,10 @@ public:
   // From the place of the first line on, the others below it; of an upright text, to the right.
   void text(Point first, const FittedText& lines, TextStyle style);
 
+  // Says what has been drawn, and where, in the coordinates of its axes.
+  void tell(DataMark mark) { told_.push_back(std::move(mark)); }
+
+  const std::vector<DataMark>& told() const { return told_; }
   const std::vector<Mark>& marks() const { return marks_; }
   const std::vector<PlacedText>& texts() const { return texts_; }
 
@@ -108,6 +112,7 @@ private:
   Box clip_;
   std::vector<Mark> marks_;
   std::vector<PlacedText> texts_;
+  std::vector<DataMark> told_;
 };
 
 }  // namespace dotyk::figure

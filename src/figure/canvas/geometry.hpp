@@ -54,8 +54,9 @@ std::vector<std::array<P, 2>> hatched(std::span<const P> corner, double spacing)
     if constexpr (std::is_same_v<P, Point>) return (p.x - p.y) / (std::numbers::sqrt2 * spacing);
     else return (p[0] - p[1]) / (std::numbers::sqrt2 * spacing);
   };
-  const auto [low, high] = std::ranges::minmax(corner | std::views::transform(level));
   std::vector<std::array<P, 2>> out;
+  if (corner.empty()) return out;
+  const auto [low, high] = std::ranges::minmax(corner | std::views::transform(level));
   for (double at = std::ceil(low); at < high; ++at) {
     std::vector<P> ends;
     for (std::size_t c = 0; c < corner.size(); ++c) {

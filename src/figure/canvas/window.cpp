@@ -52,6 +52,13 @@ Seen seen(const ScenePicture& picture, const Box& window) {
       for (const Corner& p : part) out.add(p.value);
     }
   }
+  // The surface of a contact on its map.
+  for (const ContactPicture& contact : picture.contacts)
+    for (std::size_t f = 0; contact.nodes_per_facet > 2 && !out.body && f < contact.facets.size(); f += contact.nodes_per_facet) {
+      Polygon polygon;
+      for (int k = 0; k < contact.nodes_per_facet; ++k) polygon.push_back({{contact.nodes[contact.facets[f + k]].position[0], contact.nodes[contact.facets[f + k]].position[1]}});
+      out.body = area(cropped(std::move(polygon), window)) > 0;
+    }
   return out;
 }
 

@@ -311,7 +311,10 @@ void require_room(const Sheet& sheet, const ChartMargins& margins, int columns) 
 
 ChartMargins draw_on(Canvas& canvas, const ChartPicture& picture, const ChartFrame& frame) { return Chart(picture, canvas, frame).margins(); }
 
-void render(const ChartPicture& picture) {
+namespace {
+
+// The chart in the size that it needs, and its canvas.
+std::pair<ChartPicture, Canvas> drawn(const ChartPicture& picture) {
   const ChartFrame frame{letters(picture), {}, true, true};
   ChartPicture grown = picture;
   // Legend and title may leave a plot too low to be legible.
@@ -324,7 +327,16 @@ void render(const ChartPicture& picture) {
   for (int tries = 0; tries < 4 && draw_on(tried, grown, frame).crowded; ++tries) grown.height = std::clamp(grown.height * 6 / 5, grown.height, std::max(grown.height, greatest_side));
   Canvas canvas;
   require_room(picture, draw_on(canvas, grown, frame), 1);
+  return {std::move(grown), std::move(canvas)};
+}
+
+}  // namespace
+
+void render(const ChartPicture& picture) {
+  const auto [grown, canvas] = drawn(picture);
   write_canvas(canvas, grown);
 }
+
+std::vector<DataMark> read(const ChartPicture& picture) { return drawn(picture).second.told(); }
 
 }  // namespace dotyk::figure

@@ -1,6 +1,7 @@
 // Ranges of axes, curves and guides of slopes.
 #include "figure/chart/chart.hpp"
 
+#include <iterator>
 #include <limits>
 
 #include "figure/chart/chart_map.hpp"
@@ -38,20 +39,28 @@ std::vector<Stretch> stretches(const std::vector<Point>& points, Point way) {
   return out;
 }
 
-// Points of curves where their slope in pixels is about that of `way`; if there are none, those where it is nearest to that.
+// Points of curves whose slope in pixels is on the mean about that of `way`, or nearest to it, where it is most like it.
 Occupied like(const ChartPicture& picture, Point way, const Axes& axes) {
   constexpr double kAbout = 0.12, kWorse = 1.2;
-  std::vector<Stretch> all;
-  double least = INFINITY;
-  for (const SeriesPicture& s : picture.series)
+  std::vector<std::vector<Stretch>> all;  // of each series
+  for (const SeriesPicture& s : picture.series) {
+    std::vector<Stretch>& own = all.emplace_back();
     for (const auto& curve : curves(s.x, s.y, axes))
-      for (const std::vector<Point>& points : sampled(curve, axes.room)) {
-        if (s.reference || s.right) continue;
-        for (Stretch& stretch : stretches(points, way)) least = std::min(least, stretch.off), all.push_back(std::move(stretch));
-      }
+      for (const std::vector<Point>& points : sampled(curve, axes.room)) std::ranges::move(stretches(points, way), std::back_inserter(own));
+    if (own.empty() || s.reference || s.right) all.pop_back();
+  }
+  const auto least = [](const auto& things, const auto& off) { return off(*std::ranges::min_element(things, {}, off)); };
+  const auto off = [](const Stretch& stretch) { return stretch.off; };
+  const auto mean = [](const std::vector<Stretch>& own) {
+    double sum = 0;
+    for (const Stretch& stretch : own) sum += stretch.off;
+    return sum / static_cast<double>(own.size());
+  };
   Occupied out;
-  for (const Stretch& stretch : all)
-    if (stretch.off <= std::max(kAbout, kWorse * least)) out.add(stretch.middle, axes.room);
+  for (const std::vector<Stretch>& own : all)
+    if (mean(own) <= std::max(kAbout, kWorse * least(all, mean)))
+      for (const Stretch& stretch : own)
+        if (stretch.off <= std::max(kAbout, kWorse * least(own, off))) out.add(stretch.middle, axes.room);
   return out;
 }
 
@@ -186,6 +195,7 @@ void draw_guide(Canvas& canvas, const ChartPicture& picture, const SlopeGuide& g
     const std::array<Point, 3> triangle{a, Point{b.x, a.y}, b};
     canvas.convex(triangle, {235, 235, 235});
     canvas.polyline(triangle, std::max(1.2, em / 16), reference_grey, {}, true);
+    canvas.tell({"slope guide", {axes.values(triangle[0]), axes.values(triangle[1]), axes.values(triangle[2])}});
     canvas.text({b.x + pad, low + up / 2}, label, {.size = size, .up = Align::middle, .colour = reference_grey});
     if (plain && one)
       canvas.text({at.x + run / 2, rises ? low - 0.15 * em : a.y + 0.1 * em}, "1",

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "base/error.hpp"
 #include "figure/canvas/geometry.hpp"
+#include "figure/compose/outline.hpp"
 #include "figure/scene/contact_map.hpp"
 #include "mesh/second_order.hpp"
 #include "solver/core/verdict.hpp"
@@ -105,49 +107,62 @@ BodyPicture body_picture(const Solution& s, int index, const SceneOptions& optio
   return picture;
 }
 
-/// Laws, by the nearest of the known symbols: rollers for a rigid base, else springs; none where the support bears nothing.
-void add_law_supports(const Solution& s, int index, ScenePicture& picture) {
+/// Laws, by the nearest of the known symbols: rollers for a rigid base, else springs; none where the support is broken.
+void add_law_supports(const Solution& s, int index, int& along, ScenePicture& picture) {
   using Kind = problem::SupportLaw::Kind;
   const Body& body = s.body(index);
   for (const scene::LawSupport& on : body.laws) {
+    const Outline outline(*body.mesh, on.facets, along);
     const auto result = s.support({s.scene().bodies[index], on.part.name, on.facets});
     const Kind normal = on.normal.kind == Kind::free ? on.tangential.kind : on.normal.kind;
     if (normal == Kind::load) continue;
     const bool rigid = normal == Kind::signorini || normal == Kind::prescribed;
     for (const scene::SupportNode& node : result.nodes)
-      if (!node.broken && (node.status != problem::Status::open || on.normal.kind == Kind::free))
+      if (!node.broken)
         picture.supports.push_back({node.x, mesh::at_node(s.displacement(index), node.node, body.dimension()), node.normal, {true, true, true},
-                                    rigid ? SupportKind::slide : SupportKind::spring});
+                                    rigid ? SupportKind::slide : SupportKind::spring, node.status == problem::Status::open && on.normal.kind != Kind::free,
+                                    outline.of(node.node)});
   }
 }
 
-void add_supports(const Solution& s, int index, ScenePicture& picture) {
+void add_supports(const Solution& s, int index, int& along, ScenePicture& picture) {
   const Body& body = s.body(index);
   const auto& u = s.displacement(index);
   const int dim = body.dimension();
-  for (const scene::Support& support : body.supports)
+  for (const scene::Support& support : body.supports) {
+    const Outline outline(*body.mesh, support.facets, along);
     for (std::size_t k = 0; k < support.nodes.size(); ++k)
       picture.supports.push_back({body.mesh->point(support.nodes[k]), mesh::at_node(u, support.nodes[k], dim),
-                                  support.normals[k], support.components[k], static_cast<SupportKind>(support.kind)});
+                                  support.normals[k], support.components[k], static_cast<SupportKind>(support.kind), false, outline.of(support.nodes[k])});
+  }
+  std::set<mesh::Facet> sliding;
+  for (const scene::SlideRow& slide : body.slides) sliding.insert(slide.facets->begin(), slide.facets->end());
+  const Outline slides(*body.mesh, {sliding.begin(), sliding.end()}, along);
   for (const scene::SlideRow& slide : body.slides)
     picture.supports.push_back({body.mesh->point(slide.node), mesh::at_node(u, slide.node, dim), slide.normal,
-                                {true, true, true}, SupportKind::slide});
+                                {true, true, true}, SupportKind::slide, false, slides.of(slide.node)});
+  std::vector<mesh::Facet> sprung;
+  for (const scene::SpringPatch& patch : body.springs) sprung.push_back(patch.spring.facet);
+  const Outline springs(*body.mesh, sprung, along);
   for (const scene::SpringPatch& patch : body.springs) {
     const mesh::Point centre = body.mesh->facet_centre(patch.spring.facet);
     const Vec3 normal = mesh::unit(body.mesh->facet_area_vector(patch.spring.facet));
     const auto& k = patch.spring.stiffness.front();
     picture.supports.push_back({centre, s.displacement(index, centre), normal,
-                                {k[0] > 0, k[1] > 0, k[2] > 0}, SupportKind::spring});
+                                {k[0] > 0, k[1] > 0, k[2] > 0}, SupportKind::spring, false, springs.of(patch.spring.facet)});
   }
-  add_law_supports(s, index, picture);
+  add_law_supports(s, index, along, picture);
 }
 
-void add_loads(const Solution& s, int index, ScenePicture& picture) {
+void add_loads(const Solution& s, int index, int& along, ScenePicture& picture) {
   const Body& body = s.body(index);
   const std::vector<scene::LoadArrow> arrows = scene::load_arrows(body);
-  const std::size_t step = std::max<std::size_t>(1, arrows.size() / 200);
+  std::vector<mesh::Facet> loaded;
+  for (const scene::LoadArrow& arrow : arrows) loaded.push_back(arrow.facet);
+  const Outline outline(*body.mesh, loaded, along);
+  const std::size_t step = body.dimension() == 2 ? 1 : std::max<std::size_t>(1, arrows.size() / 200);
   for (std::size_t k = 0; k < arrows.size(); k += step)
-    picture.loads.push_back({arrows[k].at, s.displacement(index, arrows[k].at), arrows[k].value, mesh::unit(body.mesh->facet_area_vector(arrows[k].facet))});
+    picture.loads.push_back({arrows[k].at, s.displacement(index, arrows[k].at), arrows[k].value, mesh::unit(body.mesh->facet_area_vector(arrows[k].facet)), outline.of(arrows[k].facet)});
 }
 
 /// A field that is zero but for rounding is drawn as zero: one below 1e-9 of the greatest stress or displacement in the scene.
@@ -262,16 +277,19 @@ ScenePicture compose(const Solution& s, const SceneOptions& options) {
   picture.deformation = options.deform.value_or(visible_deformation(s));
   picture.trajectories = options.trajectories;
   const std::vector<Vec3> moves = explosion(s, options.explode);
+  int along = 0;
   for (int b = 0; b < static_cast<int>(s.scene().bodies.size()); ++b) {
     const std::size_t supports = picture.supports.size(), loads = picture.loads.size();
     picture.bodies.push_back(body_picture(s, b, options));
-    if (options.supports) add_supports(s, b, picture);
-    if (options.loads) add_loads(s, b, picture);
+    if (options.supports) add_supports(s, b, along, picture);
+    if (options.loads) add_loads(s, b, along, picture);
     if (options.explode == 0) continue;
     move(picture.bodies.back().points, moves[b]);
     for (std::size_t i = supports; i < picture.supports.size(); ++i) picture.supports[i].position = plus(picture.supports[i].position, moves[b]);
     for (std::size_t i = loads; i < picture.loads.size(); ++i) picture.loads[i].position = plus(picture.loads[i].position, moves[b]);
   }
+  std::ranges::stable_sort(picture.supports, {}, &SupportSymbol::place);
+  std::ranges::stable_sort(picture.loads, {}, &LoadArrow::place);
   if (options.contact) add_contacts(s, options, moves, scene_size(s), picture);
   if (of_contacts(options.field) && picture.contacts.empty())
     throw InputError(std::string("field \"") + key_of(options.field) + "\" is one of contacts; " + (options.contact ? "this scene has none" : "with 'contact' false none is drawn"));

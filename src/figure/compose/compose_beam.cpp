@@ -162,7 +162,7 @@ BeamDrawing beam_drawing(const BeamView& view, const Units& units) {
   for (const ViewedSupport& s : view.supports) {
     const Scales bending = scales(view, LawSide::deflection), turning = scales(view, LawSide::rotation);
     out.supports.push_back({s.x, s.deflection.place + working_point(s.deflection, bending).displacement, s.rotation.place + working_point(s.rotation, turning).displacement,
-                            element(s.deflection, bending), element(s.rotation, turning), problem::directed(s.rotation.law.kind)});
+                            s.deflection.place, s.rotation.place, element(s.deflection, bending), element(s.rotation, turning), problem::directed(s.rotation.law.kind)});
     const double force = s.deflection.force + (s.deflection.law.kind == Kind::load ? s.deflection.law.value : 0);
     const double moment = s.rotation.force + (s.rotation.law.kind == Kind::load ? s.rotation.law.value : 0);
     if (force != 0 || moment != 0) out.loads.push_back({s.x, force, moment});
@@ -252,7 +252,9 @@ std::vector<PageCell> law_cells(const SupportLaw& law, LawSide of, bool turned, 
 std::vector<PageCell> law_cells(const BeamView& view, int support, LawSide of, const Units& units) {
   const ViewedLaw& at = view.supports[static_cast<std::size_t>(support)].of(of);
   const Scales scale = scales(view, of);
-  return law_cells(at.law, of, at.turned, working_point(at, scale), scale, units);
+  std::vector<PageCell> cells = law_cells(at.law, of, at.turned, working_point(at, scale), scale, units);
+  for (PageCell& cell : cells) std::get<CurveDrawing>(cell.drawing).state = element(at, scale).state;
+  return cells;
 }
 
 PagePicture law_page(std::vector<PageCell> cells) {

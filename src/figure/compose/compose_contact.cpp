@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <ranges>
+#include <tuple>
 
 #include "figure/canvas/geometry.hpp"
 
@@ -50,11 +52,18 @@ std::vector<bool> facing(const Contact& contact) {
   return result;
 }
 
+/// The greatest gap at rest that is magnified: c of the header.
+double most_magnified(const Contact& contact, const scene::ContactResult& result) {
+  if (!std::holds_alternative<contact::RigidPlane>(contact.shape)) return INFINITY;
+  double most = 0;
+  for (std::size_t k = 0; k < contact.rows.size(); ++k) most = std::max(most, contact.rows[k].gap - result.nodes[k].gap);
+  return most;
+}
+
 /// Where the obstacle is drawn, as each node sees it; see the header.
 std::vector<Vec3> seen_by_nodes(const Contact& contact, const scene::ContactResult& result, const Vec3& move, double factor) {
-  const bool plane = std::holds_alternative<contact::RigidPlane>(contact.shape), touches = result.area > 0;
-  double most = plane ? 0 : INFINITY;
-  for (std::size_t k = 0; k < contact.rows.size(); ++k) most = std::max(most, contact.rows[k].gap - result.nodes[k].gap);
+  const bool touches = result.area > 0;
+  const double most = most_magnified(contact, result);
   std::vector<Vec3> at;
   for (std::size_t k = 0; k < contact.rows.size(); ++k) {
     const contact::ContactRow& row = contact.rows[k];
@@ -67,7 +76,14 @@ std::vector<Vec3> seen_by_nodes(const Contact& contact, const scene::ContactResu
   return at;
 }
 
-/// The points in their order along the part; separate pieces follow each other by the coordinate across `outward`. The line of a plane goes beyond both ends.
+/// Whether gaps at rest that can be seen are drawn larger.
+bool magnifies(const Contact& contact, const scene::ContactResult& result, double size) {
+  const double most = most_magnified(contact, result);
+  return std::ranges::any_of(contact.rows, [&](const contact::ContactRow& row) { return std::abs(std::min(row.gap, most)) > 1e-6 * size; });
+}
+
+/// The points in their order along the part, of a plane along that; separate pieces follow each other by the coordinate across `outward`. The line of a
+/// plane goes beyond both ends.
 std::vector<double> polyline(const Contact& contact, const scene::ContactResult& result, const std::vector<Vec3>& at,
                              const std::vector<int>& place, const Vec3& outward, double beyond) {
   const auto across = [&](int k) { return result.nodes[k].x[1] * outward[0] - result.nodes[k].x[0] * outward[1]; };
@@ -81,9 +97,16 @@ std::vector<double> polyline(const Contact& contact, const scene::ContactResult&
   for (const std::vector<int>& piece : pieces)
     for (const int k : piece)
       if (place[k] >= 0) ordered.push_back(at[k]);
+  if (std::holds_alternative<contact::RigidPlane>(contact.shape)) std::ranges::stable_sort(ordered, {}, [&](const Vec3& x) { return x[1] * outward[0] - x[0] * outward[1]; });
   if (const auto* plane = std::get_if<contact::RigidPlane>(&contact.shape); plane && !ordered.empty()) {
     const Vec3 along{plane->normal[1], -plane->normal[0], 0};  // the way of the order, as `outward` is −normal
-    const Vec3 first = plus(ordered.front(), along, -beyond), last = plus(ordered.back(), along, beyond);
+    // As it goes on where it ends: a magnification tilts a plane that is not along the part.
+    const auto beyond_end = [&](const auto& inwards, double sense) {
+      const Vec3& end = *inwards.begin();
+      const auto before = std::ranges::find_if(inwards, [&](const Vec3& x) { return length(plus(x, end, -1)) > 1e-6 * beyond; });
+      return plus(end, before == inwards.end() ? plus({0, 0, 0}, along, sense) : unit(plus(end, *before, -1)), beyond);
+    };
+    const Vec3 first = beyond_end(ordered, -1), last = beyond_end(ordered | std::views::reverse, 1);
     ordered.insert(ordered.begin(), first);
     ordered.push_back(last);
   }
@@ -119,6 +142,24 @@ ContactPicture moved(ContactPicture contact, const Vec3& by) {
   for (ContactNode& node : contact.nodes) node.position = plus(node.position, by);
   contact.apart = true;
   return contact;
+}
+
+/// Of several contacts on the same facets one tells the state of a node: that with the greatest pressure there, else that with the least gap.
+void cover(const Solution& s, const std::vector<std::pair<const Contact*, std::size_t>>& contacts, std::vector<ContactPicture>& pictures) {
+  std::map<std::tuple<int, mesh::Facet, int>, std::tuple<double, double, std::size_t>> told;  // by body, facet, node
+  for (const bool covers : {false, true})
+    for (const auto& [contact, number] : contacts)
+      for (std::size_t k = 0; k < contact->rows.size(); ++k) {
+        ContactNode& node = pictures[number].nodes[k];
+        bool covered = !contact->rows[k].facets.empty();
+        for (const int f : contact->rows[k].facets) {
+          const std::tuple rank(-node.pressure, node.gap, number);
+          auto& best = told.try_emplace({s.scene().index_of(contact->first.body.get()), contact->first.facets[f], contact->rows[k].node}, rank).first->second;
+          best = std::min(best, rank);
+          covered = covered && best != rank;
+        }
+        if (covers) node.covered = covered;
+      }
 }
 
 }  // namespace
@@ -170,6 +211,7 @@ RigidPicture obstacle_picture(const Contact& contact, const scene::ContactResult
 }
 
 void add_contacts(const Solution& s, const SceneOptions& options, const std::vector<Vec3>& moves, double size, ScenePicture& picture) {
+  std::vector<std::pair<const Contact*, std::size_t>> drawn;
   for (const auto& contact : s.scene().contacts) {
     if (contact->kind != Contact::Kind::contact) continue;
     const scene::ContactResult result = s.contact(*contact);
@@ -178,11 +220,15 @@ void add_contacts(const Solution& s, const SceneOptions& options, const std::vec
     if (of_contacts(options.field)) shown.values = contact_values(shown, options.field);
     if (options.explode > 0 && contact->second.body) picture.contacts.push_back(moved(other_side(shown), moves[s.scene().index_of(contact->second.body.get())]));
     picture.contacts.push_back(options.explode > 0 ? moved(std::move(shown), moves[first]) : std::move(shown));
+    drawn.emplace_back(contact.get(), picture.contacts.size() - 1);
     if (!contact->second.body && options.obstacle) {
       RigidPicture obstacle = obstacle_picture(*contact, result, s.loading().move_of(s.scene().index_of(*contact)), picture.deformation, size);
-      if (obstacle.points.size() >= 6) picture.obstacles.push_back(std::move(obstacle));
+      if (obstacle.points.size() < 6) continue;
+      picture.obstacles.push_back(std::move(obstacle));
+      picture.gaps_magnified |= picture.deformation != 1 && magnifies(*contact, result, size);
     }
   }
+  if (s.scene().dimension() == 2) cover(s, drawn, picture.contacts);
 }
 
 }  // namespace dotyk::figure

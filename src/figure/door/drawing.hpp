@@ -3,13 +3,20 @@
 
 #include <variant>
 
+#include "figure/door/marks.hpp"
 #include "figure/door/picture.hpp"
 #include "figure/page/page_picture.hpp"
 #include "figure/plate/plate_picture.hpp"
 
 namespace dotyk::figure {
 
-using Drawing = std::variant<const ScenePicture*, const SceneGrid*, const ChartPicture*, const ChartColumn*, const PagePicture*, const PlatePicture*, const GridFile*>;
+// Asks for the marks of a picture in place of its file.
+struct Reading {
+  std::variant<const ScenePicture*, const PagePicture*, const PlatePicture*, const ChartPicture*> of;
+  std::vector<DataMark>* marks;
+};
+
+using Drawing = std::variant<const ScenePicture*, const SceneGrid*, const ChartPicture*, const ChartColumn*, const PagePicture*, const PlatePicture*, const GridFile*, const Reading*>;
 
 // Before the door: throw std::runtime_error naming what is wrong: sizes, lengths of arrays, node numbers, the file's ending
 // and folder.
@@ -20,6 +27,7 @@ void check(const ChartColumn& picture);
 void check(const PagePicture& picture);
 void check(const PlatePicture& picture);
 void check(const GridFile& grid);
+inline void check(const Reading& reading) { std::visit([](const auto* picture) { check(*picture); }, reading.of); }
 
 // Behind it: draw, or write, and throw std::runtime_error; entry.cpp keeps exceptions from leaving the library.
 void render(const ScenePicture& picture);
@@ -29,5 +37,10 @@ void render(const ChartColumn& picture);
 void render(const PagePicture& picture);
 void render(const PlatePicture& picture);
 void render(const GridFile& grid);
+std::vector<DataMark> read(const ScenePicture& picture);
+std::vector<DataMark> read(const PagePicture& picture);
+std::vector<DataMark> read(const PlatePicture& picture);
+std::vector<DataMark> read(const ChartPicture& picture);
+inline void render(const Reading& reading) { std::visit([&](const auto* picture) { *reading.marks = read(*picture); }, reading.of); }
 
 }  // namespace dotyk::figure

@@ -38,6 +38,13 @@ void pass(const Picture& picture) {
   if (door()(&drawing, error, sizeof error) != 0) throw std::runtime_error(error);
 }
 
+template <class Picture>
+std::vector<DataMark> marks_of(const Picture& picture) {
+  std::vector<DataMark> out;
+  pass(Reading{&picture, &out});
+  return out;
+}
+
 }  // namespace
 
 void draw(const ScenePicture& picture) { pass(picture); }
@@ -47,5 +54,9 @@ void draw(const ChartColumn& picture) { pass(picture); }
 void draw(const PagePicture& picture) { pass(picture); }
 void draw(const PlatePicture& picture) { pass(picture); }
 void write(const GridFile& grid) { pass(grid); }
+std::vector<DataMark> marks(const ScenePicture& picture) { return marks_of(picture); }
+std::vector<DataMark> marks(const PagePicture& picture) { return marks_of(picture); }
+std::vector<DataMark> marks(const PlatePicture& picture) { return marks_of(picture); }
+std::vector<DataMark> marks(const ChartPicture& picture) { return marks_of(picture); }
 
 }  // namespace dotyk::figure

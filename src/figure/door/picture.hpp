@@ -99,6 +99,7 @@ struct ContactNode {
   Vec3 shear = {0, 0, 0};                   // friction on the first part, as the pressure
   double rest_gap = 0;                      // to another body at rest, along the normal; negative: an interference
   double gap = 0, slip = 0;                 // as deformed; how far it has slipped
+  bool covered = false;                     // another contact on the same part tells the state of this node: neither marker nor line
 };
 
 // One contact: its nodes on the first part, and how they hang together. In the plane facets of 3 or 4 nodes are those of a map
@@ -122,6 +123,8 @@ struct SupportSymbol {
   Vec3 normal = {0, 1, 0};                  // outward normal of the body; the symbol stands outside
   std::array<bool, 3> fixed = {true, true, true};  // components held (fix, displace, spring)
   SupportKind kind = SupportKind::fix;
+  bool open = false;                        // it does not act: it stays where it is at rest, in the colour of "open"
+  int place = 0;                            // in the plane, number along the outlines of bodies: of neighbours at most 2 apart
 };
 
 // A text at a point of a scene.
@@ -143,6 +146,7 @@ struct LoadArrow {
   Vec3 displacement = {0, 0, 0};
   Vec3 vector = {0, 0, 0};                  // force, or force per length or area
   Vec3 normal = {0, 0, 0};                  // outward normal of the body there
+  int place = 0;                            // as of a support
 };
 
 enum class MeshEdges { automatic, on, off };           // automatic: while they can be told apart
@@ -162,6 +166,7 @@ struct ScenePicture : Sheet {
   std::optional<std::array<double, 2>> field_range;  // {least, greatest}; values beyond keep the end colour, a triangle on the bar tells of them
 
   double deformation = 1;                   // factor on every displacement
+  bool gaps_magnified = false;              // obstacles are drawn where that factor on their gaps at rest has put them, too
   // Plane: only this region, {x0, y0, x1, y1} in the coordinates of the deformed
   // picture, larger; colours and pressures are then scaled to what is seen. It
   // grows where the drawing of the pressure would not fit into it.

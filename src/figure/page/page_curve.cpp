@@ -5,7 +5,7 @@ namespace dotyk::figure {
 
 namespace {
 
-constexpr Colour point_colour{213, 94, 0}, zero_ink{110, 110, 110};
+constexpr Colour zero_ink{110, 110, 110};
 
 // Down to zero.
 void fill(Canvas& canvas, const PageCurve& c, const Axes& axes, Colour colour) {
@@ -53,7 +53,8 @@ void draw_point(Canvas& canvas, const CurveDrawing& curve, const Axes& axes) {
   const auto [x, y] = *curve.point;
   const double em = axes.em;
   const Point p = axes.at(x, y), origin = axes.at(0, 0);
-  canvas.marker(Marker::disc, p, 0.62 * em, point_colour);
+  canvas.marker(Marker::disc, p, 0.62 * em, state_colour(curve.state));
+  canvas.tell({state_name(curve.state), {*curve.point}});
   Occupied occupied;
   for (const PageCurve& c : curve.curves) occupied.add(axes.line(c.x, c.y), axes.room);
   occupied.add(Box{p.x - 0.4 * em, p.y - 0.4 * em, p.x + 0.4 * em, p.y + 0.4 * em});
@@ -74,7 +75,7 @@ void draw_point(Canvas& canvas, const CurveDrawing& curve, const Axes& axes) {
       const auto place = place_beside(*spared, axes.room, p, extent, 0.35 * em);
       if (!place) continue;
       for (std::size_t i = 0; i < texts.size(); ++i)
-        canvas.text({place->x, place->y + extent.y / 2 - size / 2 - line * static_cast<double>(i)}, texts[i], {.size = size, .across = Align::middle, .up = Align::middle, .colour = {150, 60, 0}, .halo = true});
+        canvas.text({place->x, place->y + extent.y / 2 - size / 2 - line * static_cast<double>(i)}, texts[i], {.size = size, .across = Align::middle, .up = Align::middle, .colour = axes_ink, .halo = true});
       return;
     }
 }

@@ -178,12 +178,18 @@ private:
   std::vector<std::vector<Axes>> axes_;
 };
 
+PagePicture grown(PagePicture picture) {
+  picture.height = std::min(std::max(picture.height, greatest_side), picture.height + static_cast<int>(std::ceil(Page(picture).missing())));
+  return picture;
+}
+
 }  // namespace
 
 void render(const PagePicture& given) {
-  PagePicture picture = given;
-  picture.height = std::min(std::max(picture.height, greatest_side), picture.height + static_cast<int>(std::ceil(Page(picture).missing())));
+  const PagePicture picture = grown(given);
   write_canvas(Page(picture).canvas(), picture);
 }
+
+std::vector<DataMark> read(const PagePicture& picture) { return Page(grown(picture)).canvas().told(); }
 
 }  // namespace dotyk::figure

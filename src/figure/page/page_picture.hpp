@@ -37,10 +37,11 @@ struct SupportElement {
 };
 
 // A support of a beam: what it does about the deflection stands below the
-// beam, at rest at deflection 0; what it does about the rotation is an arc above.
+// beam; what it does about the rotation is an arc above.
 struct BeamSupport {
   double x = 0;
   double deflection = 0, rotation = 0;
+  double rest = 0, rest_rotation = 0;  // at which its elements are at rest
   SupportElement below, arc;
   bool directed_arc = false;  // differs between slopes above and below zero
 };
@@ -76,6 +77,7 @@ struct CurveDrawing {
   bool no_scale = false;                           // y is zero or infinite: only zero is labelled
   std::vector<std::array<double, 2>> forbidden;    // x that cannot be: shaded
   std::optional<std::array<double, 2>> point;      // a working point, with its coordinates
+  SupportState state = SupportState::acting;       // of the support there
 };
 
 // ------------------------------------------------------------------- pages

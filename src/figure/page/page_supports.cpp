@@ -21,10 +21,10 @@ constexpr double reach = 0.85;  // of elements and ground across and beyond, in 
 // the origin and turns to the left (sign 1) or right (-1).
 struct Track {
   Point origin;
-  double radius = 0, sign = 1;
+  double radius = 0, sign = 1, start = 0;  // start: of an arc, where s begins on it
   Point operator()(double s, double t) const {
     if (radius == 0) return {origin.x + t, origin.y - s};
-    const double angle = std::numbers::pi / 2 + sign * s / radius;
+    const double angle = std::numbers::pi / 2 + sign * (start + s) / radius;
     return origin + (radius + t) * Point{std::cos(angle), std::sin(angle)};
   }
   std::vector<Point> along(double from, double to, double t) const {
@@ -181,7 +181,7 @@ struct SupportSymbols {
   const BeamSupport& support;
   double em = symbol_em(axes);
   Point place = axes.at(support.x, support.deflection);
-  double lean = std::clamp(std::atan(support.rotation * axes.y.pixels_per_unit() / axes.x.pixels_per_unit()), -most_lean, most_lean);
+  double lean = leaning(support.rotation);
 
   void draw() {
     const bool held = support.below.kind == ElementKind::fixed, turned = support.arc.kind == ElementKind::fixed;
@@ -195,6 +195,7 @@ struct SupportSymbols {
       draw_arc();
   }
 
+  double leaning(double slope) const { return std::clamp(std::atan(slope * axes.y.pixels_per_unit() / axes.x.pixels_per_unit()), -most_lean, most_lean); }
   bool left() const { return at_left_end(beam, support); }
   bool right() const { return at_right_end(beam, support); }
   double width() const { return std::max(1.5, em / 9); }
@@ -245,8 +246,12 @@ struct SupportSymbols {
 
   void draw_below() {
     const double scale = axes.y.pixels_per_unit();
-    const double length = support.below.kind == ElementKind::stop ? stop_length * em : ground_depth(beam, scale, em);
-    Element{canvas, support.below, Track{{place.x, axes.y.pixel(0)}}, -scale * support.deflection, -scale * support.below.slip, length, em}.draw();
+    const double length = support.below.kind == ElementKind::stop ? stop_length * em : ground_depth(beam, scale, em) + scale * support.rest;
+    const Track down{{place.x, axes.y.pixel(support.rest)}};
+    const double moved = scale * (support.rest - support.deflection);
+    Element{canvas, support.below, down, moved, -scale * support.below.slip, length, em}.draw();
+    const std::string name = state_name(support.below.state);
+    canvas.tell({name, {axes.values(down(0, 0)), axes.values(down(moved, 0)), axes.values(down(length, 0))}});
   }
 
   // The rotation is held, the deflection is not: a wall with rollers; within the beam an arm without a joint.
@@ -270,9 +275,9 @@ struct SupportSymbols {
   // An arm upright on the beam, its end held along an arc.
   void draw_arc() {
     const double sign = arc_sign(beam, support), r = radius * em;
-    const double slope_scale = support.rotation != 0 ? lean / support.rotation : 0;
+    const double slope_scale = support.rotation != 0 ? lean / support.rotation : 0, start = sign * r * leaning(support.rest_rotation);
     const double slip = std::clamp(support.arc.slip * slope_scale, -most_lean, most_lean);
-    Element{canvas, support.arc, Track{place, r, sign}, sign * lean * r, sign * slip * r, swing * r, em}.draw();
+    Element{canvas, support.arc, Track{place, r, sign, start}, sign * lean * r - start, sign * slip * r, swing * r - start, em}.draw();
     canvas.line(place, local(0, r + 0.12 * em), 1.8 * width(), beam_ink);
     canvas.disc(place, 0.16 * em, beam_ink);
   }
@@ -301,7 +306,7 @@ bool shows_settlement(const BeamSupport& s, const Axes& axes) {
 double ground_depth(const BeamDrawing& beam, double scale, double em) {
   double lowest = 0, rest = 0;
   for (const BeamSupport& s : beam.supports)
-    if (moves(s) && s.below.kind != ElementKind::stop) lowest = std::max(lowest, -s.deflection), rest = std::max(rest, rest_length(s.below.kind));
+    if (moves(s) && s.below.kind != ElementKind::stop) lowest = std::max({lowest, -s.deflection, -s.rest}), rest = std::max(rest, rest_length(s.below.kind));
   return rest * em + scale * lowest;
 }
 
@@ -323,7 +328,7 @@ double depth_below(const BeamDrawing& beam, const BeamSupport& s, double scale, 
   const double at = -scale * s.deflection;
   double depth = at + (s.arc.kind == ElementKind::fixed ? 1.5 : 0.4) * em;
   if (s.below.kind == ElementKind::fixed) depth = std::max(depth, at + (pin_height + 0.4) * em);
-  if (s.below.kind == ElementKind::stop) depth = std::max(depth, (stop_length + 0.4) * em);
+  if (s.below.kind == ElementKind::stop) depth = std::max(depth, (stop_length + 0.4) * em - scale * s.rest);
   else if (moves(s)) depth = std::max(depth, ground_depth(beam, scale, em) + 0.5 * em);
   return depth;
 }

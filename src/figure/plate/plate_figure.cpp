@@ -54,10 +54,13 @@ LegendEntry line_entry(const std::string& name, Colour colour, double width) {
   return {name, [colour, width](Canvas& c, const Box& b) { c.line(b.midline()[0], b.midline()[1], width, colour); }};
 }
 
-LegendEntry bearing_entry(double em) {
-  return {"bears on the obstacle", [em](Canvas& c, const Box& b) {
+LegendEntry bearing_entry(double em, bool zone, bool lone) {
+  return {"bears on the obstacle", [=](Canvas& c, const Box& sample) {
+            Box b = sample;
             const double middle = b.centre().y, half = 0.38 * em;
             const Colour colour = status_colour(Status::closed);
+            if (lone) c.marker(Marker::disc, {zone ? b.right - 0.25 * em : b.centre().x, middle}, 0.5 * em, colour), b.right -= 0.7 * em;
+            if (!zone) return;
             for (double x = b.left; x + 2 * half <= b.right + 1; x += 0.45 * em) c.line({x, middle - half}, {x + 2 * half, middle + half}, std::max(1.0, em / 18), colour);
             c.outline({b.left, middle - half, b.right, middle + half}, std::max(1.4, em / 12), colour);
           }};
@@ -153,8 +156,16 @@ void plate_legend(const Plate& plate, double em, double width, std::vector<Legen
                                       std::pair{PlateSupport::elastic, "edge elastic"}, std::pair{PlateSupport::friction, "edge with friction"}})
     if (plate.any([&, support = support](const EdgeRun& run, const EdgePoint& p) { return !p.status && run.support == support; }))
       out.push_back(line_entry(name, support_colour(support, std::nullopt), width));
-  if (!plate.picture.supports.empty()) out.push_back({"point support", [em](Canvas& c, const Box& b) { c.marker(Marker::triangle, b.centre(), 0.6 * em, support_ink); }});
-  if (!plate.picture.bearing.empty()) out.push_back(bearing_entry(em));
+  // A triangle in each of the colours that occur.
+  std::vector<Colour> colours;
+  for (const PlatePointSupport& p : plate.picture.supports)
+    if (const Colour c = support_colour(p.support, p.status); std::ranges::find(colours, c) == colours.end()) colours.push_back(c);
+  if (!colours.empty())
+    out.push_back({"point support", [em, colours](Canvas& c, const Box& b) {
+                     for (std::size_t k = 0; k < colours.size(); ++k)
+                       c.marker(Marker::triangle, part_way(b.midline()[0], b.midline()[1], (static_cast<double>(k) + 0.5) / static_cast<double>(colours.size())), 0.6 * em, colours[k]);
+                   }});
+  if (!plate.picture.bearing.empty()) out.push_back(bearing_entry(em, !plate.zone.empty(), !plate.lone.empty()));
 }
 
 std::vector<std::array<Vec3, 2>> hatch(const Plate& plate, double spacing) {
@@ -174,13 +185,24 @@ void draw_apex(Stage& stage, Point at, Point size, double rim, Colour colour) {
   }
 }
 
+namespace {
+
+void add_layers(Stage& stage, const Plate& plate) {
+  const std::vector<Layer> layers = stage.plane ? plan_layers(plate) : surface_layers(plate);
+  stage.layers.insert(stage.layers.end() - 1, layers.begin(), layers.end());  // in the legend before what is said of bodies
+  stage.axes_of_bodies = stage.plane;
+}
+
+}  // namespace
+
 void render(const PlatePicture& picture) {
   const Plate plate(picture);
-  draw_scene(scene_of(plate), [&](Stage& stage) {
-    const std::vector<Layer> layers = stage.plane ? plan_layers(plate) : surface_layers(plate);
-    stage.layers.insert(stage.layers.end() - 1, layers.begin(), layers.end());  // in the legend before what is said of bodies
-    stage.axes_of_bodies = stage.plane;
-  });
+  draw_scene(scene_of(plate), [&](Stage& stage) { add_layers(stage, plate); });
+}
+
+std::vector<DataMark> read(const PlatePicture& picture) {
+  const Plate plate(picture);
+  return read_scene(scene_of(plate), [&](Stage& stage) { add_layers(stage, plate); });
 }
 
 }  // namespace dotyk::figure

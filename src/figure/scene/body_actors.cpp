@@ -131,7 +131,9 @@ bool displaced(const ScenePicture& picture) {
   return std::ranges::any_of(picture.bodies, [](const BodyPicture& body) { return !body.displacement.empty(); });
 }
 
-std::string scale_name(const ScenePicture& picture) { return picture.deformation == 1 ? "true scale" : "deformation × " + number(picture.deformation); }
+std::string scale_name(const ScenePicture& picture) {
+  return picture.deformation == 1 ? "true scale" : (picture.gaps_magnified ? "deformation and gaps × " : "deformation × ") + number(picture.deformation);
+}
 
 std::vector<int> outline_edges(const BodyPicture& body) {
   return body.facets.empty() ? rim({body.cells, nodes_per_cell(body.shape, 1)}) : body.facets;

@@ -1,4 +1,5 @@
 // What happens on the contact boundary: status, pressure and shear.
+#include <iterator>
 #include <set>
 
 #include "figure/canvas/axes.hpp"
@@ -9,7 +10,13 @@ namespace dotyk::figure {
 namespace {
 
 constexpr Colour rim_colour{255, 255, 255};
-constexpr double longest_shear = 1.5, least_share = 0.2;  // of an arrow: em, and of the greatest shear
+
+std::vector<std::size_t> seen_of(const Stage& stage, const std::vector<Point>& at, double within = 0) {
+  std::vector<std::size_t> out;
+  for (std::size_t i = 0; i < at.size(); ++i)
+    if (stage.shows(at[i], within)) out.push_back(i);
+  return out;
+}
 
 void draw_strip(Stage& stage, const ContactPicture& contact) {
   const std::vector<Point> at = stage.at(contact.nodes);
@@ -29,29 +36,19 @@ void draw_strip(Stage& stage, const ContactPicture& contact) {
     }
   for (const std::size_t i : stage.spaced(at, 0.55 * stage.em))
     if (loaded(i)) stage.over.line(at[i], tops[i], std::max(0.8, stage.em / 30), pressure_line, 0.6);
-}
-
-// Makes sure that the greatest candidate is chosen: it takes the place of the chosen one that is nearest to it, or is the only one.
-void keep_greatest(std::vector<std::size_t>& chosen, const std::vector<std::size_t>& candidates, const std::vector<Point>& at, const std::function<double(std::size_t)>& value) {
-  if (candidates.empty()) return;
-  const std::size_t greatest = *std::ranges::max_element(candidates, {}, value);
-  if (chosen.empty()) return chosen.push_back(greatest);
-  if (value(greatest) > (1 + 1e-6) * value(*std::ranges::max_element(chosen, {}, value)))
-    *std::ranges::min_element(chosen, {}, [&](std::size_t k) { return length(at[k] - at[greatest]); }) = greatest;
+  for (const std::size_t i : seen_of(stage, at))
+    if (loaded(i)) stage.tell("pressure", Segment{at[i], tops[i]});
 }
 
 void draw_arrows(Stage& stage, const ContactPicture& contact) {
   if (!(stage.greatest_pressure > 0)) return;
   const std::vector<Point> at = stage.at(contact.nodes);
   const auto pressure = [&](std::size_t i) { return contact.nodes[i].pressure; };
-  std::vector<std::size_t> chosen = stage.spaced(at, 0.8 * stage.em), loaded;
-  std::erase_if(chosen, [&](std::size_t i) { return pressure(i) < 0.02 * stage.greatest_pressure; });
-  for (std::size_t i = 0; i < at.size(); ++i)
-    if (pressure(i) > 0.02 * stage.greatest_pressure && stage.shows(at[i])) loaded.push_back(i);
-  keep_greatest(chosen, loaded, at, pressure);
-  for (const std::size_t i : chosen) {
-    const ContactNode& node = contact.nodes[i];
-    stage.over.arrow(pressure_tip(stage, node), at[i], std::max(1.2, stage.em / 14), 0.42 * stage.em, pressure_line, std::max(0.8, stage.em / 30));
+  for (const std::size_t i : spread(at, seen_of(stage, at), pressure, 0.8 * stage.em)) {
+    if (pressure(i) < 0.02 * stage.greatest_pressure) continue;
+    const Point tip = pressure_tip(stage, contact.nodes[i]);
+    stage.over.arrow(tip, at[i], std::max(1.2, stage.em / 14), 0.42 * stage.em, pressure_line, std::max(0.8, stage.em / 30));
+    stage.tell("pressure", Segment{at[i], tip});
   }
 }
 
@@ -72,7 +69,8 @@ struct Run {
 
 std::vector<Run> runs(const ContactPicture& contact, const std::vector<Point>& at) {
   std::vector<Run> out;
-  for (const std::vector<int>& chain : chains(contact.facets))
+  for (const std::vector<int>& chain : chains(contact.facets)) {
+    const std::size_t first = out.size();
     for (std::size_t k = 0; k < chain.size(); ++k) {
       const double half = k == 0 ? 0 : length(at[chain[k]] - at[chain[k - 1]]) / 2;
       if (k > 0) out.back().length += half;
@@ -80,6 +78,12 @@ std::vector<Run> runs(const ContactPicture& contact, const std::vector<Point>& a
       out.back().nodes.push_back(chain[k]);
       out.back().length += half;
     }
+    // Of a closed line the last one goes on in the first.
+    if (chain.front() != chain.back() || out.size() < first + 2 || contact.nodes[out[first].nodes[0]].status != contact.nodes[out.back().nodes[0]].status) continue;
+    std::ranges::copy(out[first].nodes, std::back_inserter(out.back().nodes));
+    out.back().length += out[first].length;
+    out.erase(out.begin() + static_cast<std::ptrdiff_t>(first));
+  }
   return out;
 }
 
@@ -90,37 +94,55 @@ bool is_marked(const Stage& stage, const ContactPicture& contact) {
   return !is_short(stage, contact) || std::ranges::any_of(runs(contact, stage.at(contact.nodes)), [&](const Run& run) { return run.length >= least_marker * stage.em; });
 }
 
-void mark(Stage& stage, Status status, Point at, double size) { stage.over.marker(status_marker(status), at, size * stage.em, status_colour(status)); }
+// Where the status changes between two nodes, as a share of the way: where the drawn pressure reaches zero, if one of them is open; else half way.
+double border(const ContactPicture& contact, const ContactNode& a, const ContactNode& b) {
+  const bool open = a.status == Status::open;
+  if (open == (b.status == Status::open) || std::ranges::none_of(contact.nodes, [](const ContactNode& n) { return n.pressure > 0; })) return 0.5;
+  return ((open ? b : a).pressure > 0) != open ? 1 : 0;
+}
 
-// Each half of a facet in the colour of its node.
-void draw_line(Stage& stage, const ContactPicture& contact) {
+// A marker of a node, as large as there is room for.
+struct NodeMarker {
+  const ContactNode* node;
+  double size;  // em
+};
+
+// Each part of a facet in the colour of its node. Returns the markers that belong on it.
+std::vector<NodeMarker> draw_line(Stage& stage, const ContactPicture& contact) {
   const std::vector<Point> at = stage.at(contact.nodes);
   const bool markers = !is_short(stage, contact);
   const double width = (markers ? wide : thin) * stage.em;
   for (const bool rim : {true, false})
     for (const auto& [a, b] : pairs(contact.facets))
       for (const int i : {a, b}) {
-        const bool whole = rim || contact.nodes[a].status == contact.nodes[b].status;  // halves of one colour would show a seam
-        const Colour colour = rim ? rim_colour : status_colour(contact.nodes[i].status);
+        const ContactNode &own = contact.nodes[i], &other = contact.nodes[i == a ? b : a];
+        if (own.covered) continue;
+        const bool whole = !other.covered && (rim || own.status == other.status);  // halves of one colour would show a seam
+        const Colour colour = rim ? rim_colour : status_colour(own.status);
         const double w = rim ? 1.5 * width : width;
-        if (!whole || i == a) stage.over.line(at[i], whole ? at[b] : 0.5 * (at[a] + at[b]), w, colour);
+        const Segment part{at[i], whole ? at[b] : part_way(at[a], at[b], other.covered ? 0.5 : border(contact, contact.nodes[a], contact.nodes[b]))};
+        if (!whole || i == a) stage.over.line(part[0], part[1], w, colour);
+        if (!rim && (!whole || i == a)) stage.tell(status_name(own.status), part);
         stage.over.disc(at[i], w / 2, colour);
       }
   std::set<std::size_t> marked;
   if (markers)
-    for (const std::size_t i : stage.spaced(at, 0.95 * stage.em, 0.36 * stage.em)) marked.insert(i);
-  for (const std::size_t i : marked) mark(stage, contact.nodes[i].status, at[i], marker_size);
+    for (const std::size_t i : spread(at, seen_of(stage, at, 0.36 * stage.em), [&](std::size_t k) { return contact.nodes[k].pressure; }, 0.95 * stage.em)) marked.insert(i);
+  std::vector<NodeMarker> out;
+  for (const std::size_t i : marked)
+    if (!contact.nodes[i].covered) out.push_back({&contact.nodes[i], marker_size});
   // Each run of one status keeps a marker, as large as there is room for but still legible, unless it would lie on another of these.
   std::vector<Point> small;
   for (const Run& run : runs(contact, at)) {
     const std::size_t middle = run.nodes[run.nodes.size() / 2];
     const double size = std::clamp(run.length / stage.em, least_marker, marker_size);
     if (!markers && run.length < least_marker * stage.em) continue;
-    if (!stage.shows(at[middle], 0.36 * stage.em) || std::ranges::any_of(run.nodes, [&](int i) { return marked.contains(i); })) continue;
+    if (contact.nodes[middle].covered || !stage.shows(at[middle], 0.36 * stage.em) || std::ranges::any_of(run.nodes, [&](int i) { return marked.contains(i); })) continue;
     if (std::ranges::any_of(small, [&](Point p) { return length(p - at[middle]) < size * stage.em; })) continue;
-    mark(stage, contact.nodes[middle].status, at[middle], size);
+    out.push_back({&contact.nodes[middle], size});
     small.push_back(at[middle]);
   }
+  return out;
 }
 
 // A magnification draws the sides of a closed contact of two bodies apart, or into each other, by m − 1 times their gap
@@ -131,26 +153,12 @@ void draw_joint(Stage& stage, const ContactPicture& contact) {
   };
   for (const auto& [i, j] : pairs(contact.facets)) {
     const ContactNode &a = contact.nodes[i], &b = contact.nodes[j];
-    const Point own = 0.5 * (stage.at(a) + stage.at(b)), other = 0.5 * (across(a) + across(b));
+    const double share = border(contact, a, b);
+    const Point own = part_way(stage.at(a), stage.at(b), share), other = part_way(across(a), across(b), share);
     for (const ContactNode* node : {&a, &b})
       if (node->status != Status::open && node->rest_gap != 0)
         stage.over.convex(std::array{stage.at(*node), own, other, across(*node)}, status_colour(node->status), 0.45);
   }
-}
-
-// The ends of the arrow of a node's shear, beside the contact line on the side of the first part, which it acts on.
-std::array<Point, 2> shear_arrow(const Stage& stage, const ContactNode& node) {
-  const double half = 0.5 * longest_shear * stage.em * length(node.shear) / stage.greatest_shear;
-  const Point middle = stage.at(node) - 0.75 * stage.em * stage.view.direction(node.normal), t = stage.view.direction(node.shear);
-  return {middle - half * t, middle + half * t};
-}
-
-// The nodes that may have an arrow: their shear is not small, and the whole arrow is in the picture.
-std::vector<std::size_t> rubbing_nodes(const Stage& stage, const ContactPicture& contact, const std::function<Segment(std::size_t node)>& arrow) {
-  std::vector<std::size_t> out;
-  for (std::size_t i = 0; i < contact.nodes.size(); ++i)
-    if (length(contact.nodes[i].shear) >= least_share * stage.greatest_shear && std::ranges::all_of(arrow(i), [&](Point end) { return stage.shows(end); })) out.push_back(i);
-  return out;
 }
 
 LegendEntry status_entry(const Stage& stage, Status status) {
@@ -233,7 +241,7 @@ void contact_legend(const Stage& stage, std::vector<LegendEntry>& out) {
     for (const Status status : present) out.push_back(status_entry(stage, status));
   const bool in_colours = stage.colours_contacts() || (stage.map() && stage.scale.shown);
   if (stage.greatest_pressure > 0 && stage.pressures() && !in_colours) out.push_back(pressure_entry(stage));
-  const auto rubs = [&](const ContactPicture& contact) { return !rubbing_nodes(stage, contact, [&](std::size_t i) { return shear_arrow(stage, contact.nodes[i]); }).empty(); };
+  const auto rubs = [&](const ContactPicture& contact) { return !line_shear(stage, contact).empty(); };
   const bool shear = stage.plane && !stage.map() ? std::ranges::any_of(stage.picture.contacts, rubs) : stage.plane || stage.inset;
   if (stage.greatest_shear > 0 && shear) out.push_back(shear_entry(stage));
 }
@@ -261,18 +269,25 @@ void contact_bounds(const Stage& stage, Bounds& bounds) {
 }
 
 void draw_contacts(Stage& stage, vtkRenderer* renderer) {
+  std::vector<NodeMarker> markers;
   for (const ContactPicture& contact : stage.picture.contacts) {
     if (stage.map()) {
       draw_contact_map(stage, contact);
     } else if (stage.plane) {
       if (stage.strips()) draw_strip(stage, contact);
-      if (contact.nodes_per_facet == 2) draw_joint(stage, contact), draw_line(stage, contact);
+      if (contact.nodes_per_facet == 2) draw_joint(stage, contact), std::ranges::copy(draw_line(stage, contact), std::back_inserter(markers));
       if (stage.pressures() && !stage.strips()) draw_arrows(stage, contact);
-      draw_shear(stage, shear_arrows(stage, contact, stage.at(contact.nodes), [&](const std::vector<Point>& at) { return stage.spaced(at, 1.1 * longest_shear * stage.em); },
-                                     [&](std::size_t i) { return shear_arrow(stage, contact.nodes[i]); }));
+      draw_shear(stage, line_shear(stage, contact));
     } else {
       add_contact_surface(stage, contact, renderer);
     }
+  }
+  // Where two contacts meet at a node, what bears is seen.
+  std::ranges::stable_partition(markers, [](const NodeMarker& m) { return m.node->status == Status::open; });
+  for (const auto& [node, size] : markers) {
+    const Point at = stage.at(*node);
+    stage.over.marker(status_marker(node->status), at, size * stage.em, status_colour(node->status));
+    stage.tell(status_name(node->status), std::array{at});
   }
   draw_labels(stage.over, labels(stage));
 }
@@ -292,36 +307,6 @@ void draw_labels(Canvas& canvas, const std::vector<Label>& labels) {
     canvas.text(label.box.centre(), label.text,
                 {.size = label.size, .across = Align::middle, .up = Align::middle, .colour = label.colour, .halo = label.ground == 0});
   }
-}
-
-std::vector<Segment> shear_arrows(const Stage& stage, const ContactPicture& contact, const std::vector<Point>& at,
-                                  const std::function<std::vector<std::size_t>(const std::vector<Point>& places)>& choice,
-                                  const std::function<Segment(std::size_t node)>& arrow) {
-  if (!(stage.greatest_shear > 0)) return {};
-  const std::vector<std::size_t> rubbing = rubbing_nodes(stage, contact, arrow);
-  std::vector<Point> places;
-  for (const std::size_t i : rubbing) places.push_back(at[i]);
-  std::vector<std::size_t> chosen = choice(places);
-  std::vector<std::size_t> seen;
-  for (std::size_t k = 0; k < rubbing.size(); ++k)
-    if (stage.shows(places[k], 0.4 * stage.em)) seen.push_back(k);
-  const auto size = [&](std::size_t k) { return length(contact.nodes[rubbing[k]].shear); };
-  keep_greatest(chosen, seen, places, size);
-  // Shear in the opposite direction has an arrow, too.
-  const auto against = [&](std::size_t k, std::size_t j) { return dot(contact.nodes[rubbing[k]].shear, contact.nodes[rubbing[j]].shear) < 0; };
-  std::ranges::sort(seen, std::greater{}, size);
-  for (const std::size_t k : seen)
-    if (std::ranges::all_of(chosen, [&](std::size_t j) { return against(k, j) && distance(arrow(rubbing[k]), arrow(rubbing[j])) > 0.3 * stage.em; })) {
-      chosen.push_back(k);
-      break;
-    }
-  std::vector<Segment> out;
-  for (const std::size_t k : chosen) out.push_back(arrow(rubbing[k]));
-  return out;
-}
-
-void draw_shear(Stage& stage, const std::vector<Segment>& arrows) {
-  for (const auto& [tail, head] : arrows) stage.over.arrow(tail, head, std::max(1.4, stage.em / 11), shear_head * stage.em, shear_line, std::max(0.9, stage.em / 24));
 }
 
 Layer contact_layer() { return {5, draw_contacts, contact_legend, contact_bounds}; }

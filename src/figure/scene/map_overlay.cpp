@@ -33,7 +33,7 @@ void fill_statuses(Stage& stage, const ContactPicture& contact, const std::vecto
       if (contact.nodes[facet[k]].status == Status::slip) slipping.push_back(parts[k]);
     }
   });
-  for (const auto& part : slipping) hatch_slip(stage.over, part, stage.em);
+  for (const auto& part : slipping) hatch_slip(stage.over, cropped(std::vector<Point>(part.begin(), part.end()), stage.frame.grown(stage.em)), stage.em);
 }
 
 // Lines between nodes of different statuses, half way.
@@ -105,6 +105,7 @@ void draw_markers(Stage& stage, const ContactPicture& contact, const std::vector
   for (const std::size_t i : marked) {
     const Status status = contact.nodes[i].status;
     stage.over.marker(status_marker(status), at[i], map_marker * stage.em, status_colour(status));
+    stage.tell(status_name(status), std::array{at[i]});
   }
 }
 
@@ -131,9 +132,9 @@ void draw_contact_map(Stage& stage, const ContactPicture& contact) {
   for (const auto& [a, b] : pairs(rim({contact.facets, contact.nodes_per_facet}))) stage.over.line(at[a], at[b], std::max(1.2, stage.em / 18), axes_ink);
   field ? draw_borders(stage, contact, at) : draw_pressure(stage, contact, at);
   // From the nodes, or from the rims of markers there.
-  std::vector<Segment> arrows = shear_arrows(stage, contact, at, [&](const std::vector<Point>& places) { return spread(places, places, map_spacing * stage.em); }, [&](std::size_t i) {
+  std::vector<Segment> arrows = shear_arrows(stage, contact, at, map_spacing * stage.em, [&](std::size_t i) {
     const Point shear{contact.nodes[i].shear[0], contact.nodes[i].shear[1]}, tail = at[i] + (field ? 0.5 * map_marker * stage.em / std::max(length(shear), 1e-300) : 0) * shear;
-    return Segment{tail, tail + longest_arrow * stage.em / stage.greatest_shear * shear};
+    return Segment{tail, tail + shear_scale(stage, longest_arrow) * shear};
   });
   if (field) draw_markers(stage, contact, at, arrows);
   draw_shear(stage, arrows);

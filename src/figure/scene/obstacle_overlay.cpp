@@ -58,6 +58,7 @@ void draw_in_plane(Stage& stage, const RigidPicture& rigid) {
   double walked = 0;
   for (std::size_t i = 0; i + 1 < at.size(); ++i) draw_hatching(stage, at[i], at[i + 1], {into[i], into[i + 1]}, walked);
   stage.under.polyline(at, std::max(1.5, stage.em / 12), edge_grey);
+  stage.tell("obstacle", at);
 }
 
 void draw_in_space(const Stage& stage, const RigidPicture& rigid, vtkRenderer* renderer) {

@@ -93,8 +93,7 @@ std::string words(const Stage& stage, const ContactPicture& contact, double pres
 
 Point pressure_tip(const Stage& stage, const ContactNode& node) {
   const Point at = stage.at(node);
-  if (!(stage.greatest_pressure > 0)) return at;
-  return at + stage.strip_height() * std::max(0.0, node.pressure) / stage.greatest_pressure * stage.view.direction(node.normal);
+  return at + stage.per_pressure() * std::max(0.0, node.pressure) * stage.view.direction(node.normal);
 }
 
 std::optional<Label> peak_label(const Stage& stage, const ContactPicture& contact, bool within_frame) {

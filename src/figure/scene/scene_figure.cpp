@@ -36,8 +36,13 @@ Stage::Stage(const ScenePicture& p, Point at)
 }
 
 double Stage::strip_height() const {
-  if (window) return window_strip;
-  return std::clamp(0.12 * std::min(picture.width, picture.height), 2 * em, 4.5 * em);
+  const double wanted = window ? window_strip : std::clamp(0.12 * std::min(picture.width, picture.height), 2 * em, 4.5 * em);
+  return plane ? std::min(wanted, view.scale * longest_strip) : wanted;
+}
+
+double Stage::per_pressure() const {
+  const double most = std::max(greatest_pressure, greatest_shear);
+  return most > 0 ? strip_height() / most : 0;
 }
 
 std::vector<bool> Stage::shown(const ContactPicture& contact) const {
@@ -63,6 +68,19 @@ void Stage::set_greatest() {
   if (greatest_shear < 1e-9 * greatest_pressure) greatest_shear = 0;  // rounding's
   if (greatest_pressure > 0) greatest_pressure = std::max(greatest_pressure, picture.longest[0]);
   if (greatest_shear > 0) greatest_shear = std::max(greatest_shear, picture.longest[1]);
+  // The ends of ordinates of neighbours must go the way of their feet: x + h p n with at most 0.7 of the h that stops them.
+  longest_strip = INFINITY;
+  for (const ContactPicture& contact : picture.contacts) {
+    if (!plane || contact.nodes_per_facet != 2) continue;
+    const std::vector<bool> seen = shown(contact);
+    for (const auto& [i, j] : pairs(contact.facets)) {
+      const ContactNode &a = contact.nodes[i], &b = contact.nodes[j];
+      if (!seen[i] || !seen[j] || !(a.pressure > 0) || !(b.pressure > 0)) continue;
+      const Vec3 way = plus(place(b), place(a), -1), back = plus(plus({0, 0, 0}, a.normal, a.pressure), b.normal, -b.pressure);
+      const Vec3 outward = unit(plus(a.normal, b.normal)), along = plus(way, outward, -dot(way, outward));
+      if (const double closing = dot(along, back); closing > 0) longest_strip = std::min(longest_strip, 0.7 * dot(along, way) / closing * std::max(greatest_pressure, greatest_shear));
+    }
+  }
 }
 
 std::vector<std::size_t> Stage::spaced(const std::vector<Point>& positions, double spacing, double within) const {
@@ -107,17 +125,21 @@ void set_camera(const Stage& stage, vtkRenderer* renderer) {
   renderer->AddLight(light);
 }
 
-}  // namespace
-
-std::vector<Painted> painted(Stage& stage) {
-  vtkNew<vtkRenderer> bodies;
+void draw_layers(Stage& stage, vtkRenderer* bodies) {
   if (stage.window) stage.over.clip(stage.frame);
   std::vector<Layer> upwards = stage.layers;
   std::stable_sort(upwards.begin(), upwards.end(), [](const Layer& a, const Layer& b) { return a.height < b.height; });
   for (const Layer& layer : upwards)
     if (layer.draw) layer.draw(stage, bodies);
-  if (stage.picture.cut) cut_bodies(stage, bodies);
   stage.over.no_clip();
+}
+
+}  // namespace
+
+std::vector<Painted> painted(Stage& stage) {
+  vtkNew<vtkRenderer> bodies;
+  draw_layers(stage, bodies);
+  if (stage.picture.cut) cut_bodies(stage, bodies);
   // The rim of a window, above what it cuts off.
   if (stage.window) stage.over.outline(stage.frame, std::max(1.0, stage.em / 20), {30, 30, 30});
   Painted whole{std::move(stage.under), {}, Box{0, 0, 1.0 * stage.picture.width, 1.0 * stage.picture.height}.moved(stage.corner), std::move(stage.over)};
@@ -139,9 +161,8 @@ bool widened(Sheet& sheet) {
   return printed_width(sheet) > before;
 }
 
-}  // namespace
-
-void draw_scene(const ScenePicture& picture, const std::function<void(Stage&)>& prepare) {
+// Calls `finish` with the stage once the picture has room for all.
+void with_stage(const ScenePicture& picture, const std::function<void(Stage&)>& prepare, const std::function<void(Stage&)>& finish) {
   ScenePicture grown = picture;
   constexpr int kRounds = 4;  // the column beside the scene depends on the height
   for (int round = 1;; ++round) {
@@ -152,11 +173,29 @@ void draw_scene(const ScenePicture& picture, const std::function<void(Stage&)>& 
       if (widened(grown)) continue;
       refuse_narrow(grown, lacks);
     }
-    if (round == kRounds || !(missing > 1)) return write_picture(grown, painted(stage));
+    if (round == kRounds || !(missing > 1)) return finish(stage);
     grown.height = std::min(std::max(grown.height, greatest_side), grown.height + static_cast<int>(std::ceil(missing)));
   }
 }
 
+}  // namespace
+
+void draw_scene(const ScenePicture& picture, const std::function<void(Stage&)>& prepare) {
+  with_stage(picture, prepare, [](Stage& stage) { write_picture(stage.picture, painted(stage)); });
+}
+
+std::vector<DataMark> read_scene(const ScenePicture& picture, const std::function<void(Stage&)>& prepare) {
+  std::vector<DataMark> out;
+  with_stage(picture, prepare, [&](Stage& stage) {
+    vtkNew<vtkRenderer> unseen;
+    draw_layers(stage, unseen);
+    out = stage.over.told();
+    for (const LegendEntry& entry : stage.entries) out.push_back({"legend: " + entry.name, {}});
+  });
+  return out;
+}
+
 void render(const ScenePicture& picture) { draw_scene(picture); }
+std::vector<DataMark> read(const ScenePicture& picture) { return read_scene(picture); }
 
 }  // namespace dotyk::figure

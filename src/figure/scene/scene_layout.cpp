@@ -131,7 +131,21 @@ struct Surroundings {
 };
 
 FittedText title_of(const ScenePicture& p, double em) { return fitted(p.title, 1.1 * em, p.width - em, true); }
-FittedText caption_of(const ScenePicture& p, double em) { return fitted(p.caption, em, p.width - em); }
+
+// The caption; a window of a map that leaves out some of what presses says so, with the greatest pressure of all.
+std::string words_below(const ScenePicture& p) {
+  double most = 0, beyond = 0;
+  for (const ContactPicture& contact : p.contacts)
+    for (const ContactNode& node : contact.nodes) {
+      if (contact.nodes_per_facet == 2 || !p.window || p.bodies.front().dimension != 2) continue;
+      most = std::max(most, node.pressure);
+      if (!box_of(*p.window).holds({node.position[0], node.position[1]})) beyond = std::max(beyond, node.pressure);
+    }
+  if (!(beyond > 0)) return p.caption;
+  return (p.caption.empty() ? "" : p.caption + "; ") + at_most("part shown; pressure of the contact", most, p.pressure_unit);
+}
+
+FittedText caption_of(const ScenePicture& p, double em) { return fitted(words_below(p), em, p.width - em); }
 
 // The room that all else leaves, with the widths of labels as the scene stands now.
 Box room_left(const Stage& stage, Surroundings& around, bool placed) {
@@ -156,7 +170,7 @@ Box room_left(const Stage& stage, Surroundings& around, bool placed) {
 Surroundings place_scene(Stage& stage, const Bounds& scaled, bool beside) {
   const ScenePicture& p = stage.picture;
   const double em = stage.em;
-  Surroundings around{0, 0, p.caption.empty() ? 0 : 1.5 * em + caption_of(p, em).depth(), 0, Legend({}, em), beside, {}};
+  Surroundings around{0, 0, words_below(p).empty() ? 0 : 1.5 * em + caption_of(p, em).depth(), 0, Legend({}, em), beside, {}};
   stage.frame = {0, 0, 1.0 * p.width, 1.0 * p.height};
   stage.crowded = false;
   for (int round = 0; round < 3; ++round) {

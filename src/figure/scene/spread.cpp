@@ -76,16 +76,48 @@ std::vector<std::size_t> spread(const std::vector<Point>& at, double spacing) {
   Numbers all(at.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   const Numbers kept = greedy(at, all, spacing);
-  if (kept.size() < 3 || kept.size() == at.size()) return kept;
+  if (kept.size() == at.size()) return kept;
   const auto apart = [&](const Numbers& chosen) { return greedy(at, chosen, 0.85 * spacing).size() == chosen.size(); };
-  const std::size_t last = at.size() - 1, least = (last + kept.size() - 2) / (kept.size() - 1);
-  std::size_t stride = least;
-  while (2 * stride <= 3 * least && last % stride != 0) ++stride;
-  if (last % stride == 0 && 2 * stride <= 3 * least)
-    if (const Numbers even = steps(0, last, stride); apart(even)) return even;
-  stride = last / (kept.size() - 1);
-  if (const Numbers even = steps(last % stride / 2, last, stride); apart(even)) return even;
-  return kept;
+  const std::size_t last = at.size() - 1;
+  if (kept.size() < 3) return kept.size() == 2 && apart({0, last}) ? Numbers{0, last} : kept.size() == 1 ? Numbers{last / 2} : kept;
+  const std::size_t least = (last + kept.size() - 2) / (kept.size() - 1);
+  // Up to both ends, else as far from the one as from the other.
+  for (const bool whole : {true, false})
+    for (std::size_t stride = whole ? least : last / (kept.size() - 1); 2 * stride <= 3 * least + 1; ++stride) {
+      const std::size_t rest = last % stride;
+      if (whole ? rest != 0 : rest % 2 != 0) continue;
+      if (const Numbers even = steps(rest / 2, last, stride); apart(even)) return even;
+    }
+  // Uneven places: those nearest to even steps of the way along them.
+  std::vector<double> way{0};
+  for (std::size_t i = 1; i < at.size(); ++i) way.push_back(way.back() + length(at[i] - at[i - 1]));
+  Numbers even;
+  for (std::size_t k = 0; k < kept.size(); ++k) {
+    const double wanted = way.back() * static_cast<double>(k) / static_cast<double>(kept.size() - 1);
+    const std::size_t above = std::min<std::size_t>(last, std::ranges::lower_bound(way, wanted) - way.begin());
+    even.push_back(above > 0 && wanted - way[above - 1] < way[above] - wanted ? above - 1 : above);
+  }
+  return apart(even) ? even : kept;
+}
+
+std::vector<std::size_t> spread(const std::vector<Point>& all, const std::vector<std::size_t>& candidates, const std::function<double(std::size_t)>& value, double spacing) {
+  if (candidates.empty()) return {};
+  constexpr double kEqual = 1e-6;
+  Bounds bounds;
+  std::vector<Point> at;
+  for (const std::size_t i : candidates) at.push_back(all[i]), bounds.add(all[i]);
+  const double most = value(*std::ranges::max_element(candidates, {}, value));
+  const Point peak = all[*std::ranges::find_if(candidates, [&](std::size_t i) { return value(i) >= (1 - kEqual) * most; })], image = 2 * bounds.centre() - peak;
+  Numbers out;
+  const auto off = [&](std::size_t i, double distance) { return std::ranges::none_of(out, [&](std::size_t j) { return length(at[i] - at[j]) < distance; }); };
+  for (const Point p : {peak, Point{image.x, peak.y}, Point{peak.x, image.y}, image}) {
+    const std::size_t nearest = std::ranges::min_element(at, {}, [&](Point q) { return length(q - p); }) - at.begin();
+    if (length(at[nearest] - p) < spacing / 2 && off(nearest, 0.85 * spacing)) out.push_back(nearest);
+  }
+  for (const std::size_t i : spread(at, at, spacing))
+    if (off(i, 0.85 * spacing)) out.push_back(i);
+  for (std::size_t& i : out) i = candidates[i];
+  return out;
 }
 
 std::vector<std::size_t> spread(const std::vector<Point>& at, const std::vector<Point>& plan, double spacing) {

@@ -58,7 +58,10 @@ struct Stage {
   std::vector<Painted> insets;             // as it is painted
   bool axes_of_bodies = false;  // plane: axes along the bodies, not all that stands around them
 
-  double strip_height() const;                    // pixels of the greatest pressure
+  double strip_height() const;                    // pixels of the greatest pressure, or shear
+  // Pixels of an ordinate of the pressure and, where that is drawn as a strip or arrows, of an arrow of the shear, for one unit.
+  double per_pressure() const;
+  double longest_strip = INFINITY;                // units of length: longer ordinates would cross on concave parts
   bool pressures() const { return picture.pressure != PressureStyle::none; }
   // A map of a contact.
   bool map() const { return plane && !picture.contacts.empty() && picture.contacts.front().nodes_per_facet > 2; }
@@ -79,6 +82,12 @@ struct Stage {
     for (const Thing& thing : things) out.push_back(at(thing));
     return out;
   }
+  // Says what has been drawn at these pixels; see door/marks.hpp.
+  void tell(const std::string& what, std::span<const Point> at) {
+    DataMark mark{what, {}};
+    for (const Point& p : at) mark.at.push_back({(p.x - view.origin.x) / view.scale, (p.y - view.origin.y) / view.scale});
+    over.tell(std::move(mark));
+  }
   Point at(const BodyPicture& body, int node, double factor) const { return view.flat(body.node(node, factor)); }
   // In rendered pixels, `lift` pixels nearer to the eye.
   Vec3 rendered(const Vec3& pixel, double lift) const { return {factor * pixel[0], factor * pixel[1], factor * (pixel[2] + lift)}; }
@@ -94,9 +103,11 @@ struct Stage {
 };
 
 // Numbers of places at least `spacing` pixels apart. Along an edge whose nodes
-// are even: evenly, from end to end where their number allows it, else with
+// are even: evenly and alike from both ends, where their number allows it up to these, else with
 // equal steps all the same, as a gap would look like one of what is shown.
 std::vector<std::size_t> spread(const std::vector<Point>& at, double spacing);
+// The same of candidates, and always the one of the greatest value, with its mirror images about the middle of all.
+std::vector<std::size_t> spread(const std::vector<Point>& at, const std::vector<std::size_t>& candidates, const std::function<double(std::size_t)>& value, double spacing);
 
 // The same on a surface: `plan` are the places' coordinates across its normal.
 // Where these are those of a grid, whole lines of it are left out.
@@ -104,6 +115,8 @@ std::vector<std::size_t> spread(const std::vector<Point>& at, const std::vector<
 
 // Lays out, draws, and writes the file. The picture becomes higher where it lacks height. `prepare` is called for each stage that is made.
 void draw_scene(const ScenePicture& picture, const std::function<void(Stage&)>& prepare = {});
+// Its marks (door/marks.hpp).
+std::vector<DataMark> read_scene(const ScenePicture& picture, const std::function<void(Stage&)>& prepare = {});
 // Draws a stage that is laid out.
 std::vector<Painted> painted(Stage& stage);
 
@@ -155,10 +168,14 @@ void draw_inset(Stage& stage, Point corner);
 void draw_contact_map(Stage& stage, const ContactPicture& contact);
 void hatch_slip(Canvas& canvas, std::span<const Point> polygon, double em);
 LegendEntry map_status_entry(const Stage& stage, Status status);
-// Arrows of the shear at some of the nodes that rub, those that `choice` takes of their places; where a node's arrow begins and ends.
-std::vector<Segment> shear_arrows(const Stage& stage, const ContactPicture& contact, const std::vector<Point>& at,
-                                  const std::function<std::vector<std::size_t>(const std::vector<Point>& places)>& choice,
+// Pixels of an arrow of the shear for one unit: as ordinates of the pressure where these are drawn, else the greatest `longest` em.
+double shear_scale(const Stage& stage, double longest);
+// Arrows of the shear at some of the nodes that rub, `spacing` apart; `arrow`: where a node's begins and ends.
+std::vector<Segment> shear_arrows(const Stage& stage, const ContactPicture& contact, const std::vector<Point>& at, double spacing,
                                   const std::function<Segment(std::size_t node)>& arrow);
+// In the plane: where a node's arrow is, beside the contact line on the side of the first part, which it acts on; and those that are drawn.
+Segment shear_arrow(const Stage& stage, const ContactNode& node);
+std::vector<Segment> line_shear(const Stage& stage, const ContactPicture& contact);
 void draw_shear(Stage& stage, const std::vector<Segment>& arrows);
 // Of one contact in space: statuses and arrows of the pressure.
 void add_contact_surface(const Stage& stage, const ContactPicture& contact, vtkRenderer* renderer);

@@ -16,43 +16,54 @@ struct Local {
   Point operator()(double s, double t) const { return at + size * (s * along + t * out); }
 };
 
-void ground(Canvas& c, const Local& l, double t, double width) {
-  c.line(l(-0.6, t), l(0.6, t), width, symbol_ink);
-  for (const double s : {-0.35, 0.0, 0.35, 0.6}) c.line(l(s, t), l(s - 0.25, t + 0.28), 0.7 * width, symbol_ink);
+void ground(Canvas& c, const Local& l, double t, double width, Colour ink) {
+  c.line(l(-0.6, t), l(0.6, t), width, ink);
+  for (const double s : {-0.35, 0.0, 0.35, 0.6}) c.line(l(s, t), l(s - 0.25, t + 0.28), 0.7 * width, ink);
 }
 
-void triangle(Canvas& c, const Local& l, double base, double width) {
+void triangle(Canvas& c, const Local& l, double base, double width, Colour ink) {
   const std::array<Point, 3> corners{l(0, 0), l(-0.45, base), l(0.45, base)};
   c.convex(corners, symbol_fill);
-  c.polyline(corners, width, symbol_ink, {}, true);
+  c.polyline(corners, width, ink, {}, true);
 }
 
-void symbol(Canvas& c, SupportKind kind, const Local& l, double width, bool roller) {
+// A spring goes from `end`, which is 0 at rest, to the ground, `depth` from there.
+void symbol(Canvas& c, SupportKind kind, const Local& l, double width, bool roller, Colour ink, Point end, double depth) {
   switch (kind) {
     case SupportKind::spring: {
-      const std::array<Point, 7> zigzag{l(0, 0), l(0, 0.15), l(-0.25, 0.27), l(0.25, 0.47), l(-0.25, 0.67), l(0, 0.8), l(0, 0.95)};
-      c.polyline(zigzag, width, symbol_ink);
-      ground(c, l, 0.95, width);
+      const auto at = [&](double s, double share) { return l((1 - share) * end.x + s, end.y + share * (depth - end.y)); };
+      const std::array<Point, 7> zigzag{at(0, 0), at(0, 0.16), at(-0.25, 0.28), at(0.25, 0.5), at(-0.25, 0.7), at(0, 0.84), at(0, 1)};
+      c.polyline(zigzag, width, ink);
+      ground(c, l, depth, width, ink);
       break;
     }
     case SupportKind::displace:
-      c.arrow(l(0, 1.1), l(0, 0.08), 1.3 * width, 0.45 * l.size, symbol_ink);
-      c.line(l(-0.45, 1.1), l(0.45, 1.1), width, symbol_ink);
+      c.arrow(l(0, 1.1), l(0, 0.08), 1.3 * width, 0.45 * l.size, ink);
+      c.line(l(-0.45, 1.1), l(0.45, 1.1), width, ink);
       break;
     default:
-      if (!roller) {
-        triangle(c, l, 0.75, width);
-        ground(c, l, 0.75, width);
-        break;
-      }
-      triangle(c, l, 0.6, width);
+      triangle(c, l, roller ? 0.6 : 0.75, width, ink);
       for (const double s : {-0.25, 0.25}) {
-        c.disc(l(s, 0.77), 0.15 * l.size, symbol_ink);
+        if (!roller) continue;
+        c.disc(l(s, 0.77), 0.15 * l.size, ink);
         c.disc(l(s, 0.77), 0.15 * l.size - width, symbol_fill);
       }
-      ground(c, l, 0.94, width);
+      ground(c, l, roller ? 0.94 : 0.75, width, ink);
   }
 }
+
+constexpr double rest = 0.95;  // of a spring, of a symbol's size
+
+// How far from the body at rest the grounds of springs are, all alike: none is reached by what is drawn of the body.
+double spring_depth(const Stage& stage) {
+  double most = 0;
+  for (const SupportSymbol& s : stage.picture.supports)
+    if (s.kind == SupportKind::spring && !s.open) most = std::max(most, stage.picture.deformation * dot(s.displacement, s.normal));
+  return rest + stage.view.scale * most / (support_size * stage.em);
+}
+
+// Where a support holds the body: a spring's and what does not act at rest, others as it is displaced.
+Point foot(const Stage& stage, const SupportSymbol& s) { return s.kind == SupportKind::spring || s.open ? stage.view.flat(s.position) : stage.at(s); }
 
 // A support that holds one direction only stands on rollers in that direction.
 Local frame_of(const Stage& stage, const SupportSymbol& s, bool& roller) {
@@ -64,7 +75,7 @@ Local frame_of(const Stage& stage, const SupportSymbol& s, bool& roller) {
     if (s.fixed[1]) out = {0, out.y > 1e-6 ? 1.0 : -1.0};
   }
   if (out.x == 0 && out.y == 0) out = {0, -1};
-  return {stage.at(s), out, {-out.y, out.x}, support_size * stage.em};
+  return {foot(stage, s), out, {-out.y, out.x}, support_size * stage.em};
 }
 
 // In the plane the symbols are those everyone knows; in space markers, which the legend names.
@@ -84,35 +95,70 @@ std::vector<SupportSymbol> symbols_of(const Stage& stage, SupportKind kind) {
   return out;
 }
 
+// Stretches of the boundary whose neighbours follow each other: numbers of the first and of the one after the last.
+template <class Thing>
+std::vector<std::pair<std::size_t, std::size_t>> stretches_of(const std::vector<Thing>& things) {
+  std::vector<std::pair<std::size_t, std::size_t>> out;
+  for (std::size_t first = 0, next = 0; first < things.size(); first = next) {
+    while (++next < things.size() && things[next].place - things[next - 1].place <= 2 && things[next].place >= things[next - 1].place) {}
+    out.emplace_back(first, next);
+  }
+  return out;
+}
+
+// Numbers of those that are drawn: along each stretch of the boundary some `spacing` apart, clear of those of others.
+template <class Thing>
+std::vector<std::size_t> chosen(const Stage& stage, const std::vector<Thing>& things, double spacing) {
+  std::vector<std::size_t> out;
+  const std::vector<Point> at = stage.at(things);
+  for (const auto& [first, next] : stretches_of(things))
+    for (const std::size_t k : stage.spaced({at.begin() + static_cast<std::ptrdiff_t>(first), at.begin() + static_cast<std::ptrdiff_t>(next)}, spacing))
+      if (std::ranges::none_of(out, [&](std::size_t i) { return length(at[i] - at[first + k]) < 0.7 * spacing; })) out.push_back(first + k);
+  return out;
+}
+
 void draw_support_symbols(Stage& stage, vtkRenderer*) {
   for (const Kind& kind : kinds) {
     const std::vector<SupportSymbol> symbols = symbols_of(stage, kind.kind);
-    const std::vector<Point> at = stage.at(symbols);
-    for (const std::size_t i : stage.spaced(at, (stage.plane ? 1.3 : 1.1) * support_size * stage.em)) {
+    for (const std::size_t i : chosen(stage, symbols, (stage.plane ? 1.3 : 1.1) * support_size * stage.em)) {
+      const SupportSymbol& s = symbols[i];
+      const Colour ink = s.open ? status_colour(Status::open) : symbol_ink;
       if (!stage.plane) {
-        stage.over.marker(kind.marker, at[i], 0.45 * stage.em, symbol_ink);
+        stage.over.marker(kind.marker, stage.at(s), 0.45 * stage.em, ink);
         continue;
       }
       bool roller = false;
-      const Local local = frame_of(stage, symbols[i], roller);
-      symbol(stage.over, kind.kind, local, std::max(1.1, stage.em / 18), roller);
+      const Local local = frame_of(stage, s, roller);
+      const Point moved = s.open ? Point{} : 1 / local.size * (stage.at(s) - local.at), end{moved.x * local.along.x + moved.y * local.along.y, moved.x * local.out.x + moved.y * local.out.y};
+      const double depth = kind.kind == SupportKind::spring ? spring_depth(stage) : rest;
+      symbol(stage.over, kind.kind, local, std::max(1.1, stage.em / 18), roller, ink, end, depth);
+      stage.tell(s.open ? "open support" : kind.name, Segment{local(end.x, end.y), local(0, depth)});
     }
   }
+}
+
+void sample(Canvas& c, const Box& b, double em, SupportKind kind, Colour ink) {
+  const Local local{{b.centre().x, b.top - 0.05 * em}, {0, -1}, {1, 0}, std::min(support_size * em, 0.75 * b.height())};
+  symbol(c, kind, local, std::max(1.1, em / 18), kind == SupportKind::slide, ink, {}, rest);
 }
 
 void support_legend(const Stage& stage, std::vector<LegendEntry>& out) {
   for (const Kind& kind : kinds)
     if (stage.plane && kind.kind == SupportKind::spring && !symbols_of(stage, kind.kind).empty())
       out.push_back({kind.name, [em = stage.em, kind = kind.kind](Canvas& c, const Box& b) {
-                       symbol(c, kind, {{b.centre().x, b.top - 0.05 * em}, {0, -1}, {1, 0}, std::min(support_size * em, 0.75 * b.height())}, std::max(1.1, em / 18), false);
+                       sample(c, b, em, kind, symbol_ink);
                      }});
     else if (!stage.plane && !symbols_of(stage, kind.kind).empty())
       out.push_back({kind.name, [em = stage.em, marker = kind.marker](Canvas& c, const Box& b) { c.marker(marker, b.centre(), 0.45 * em, symbol_ink); }});
+  if (const auto open = std::ranges::find_if(stage.picture.supports, &SupportSymbol::open); stage.plane && open != stage.picture.supports.end())
+    out.push_back({"support open", [em = stage.em, kind = open->kind](Canvas& c, const Box& b) { sample(c, b, em, kind, status_colour(Status::open)); }});
 }
 
 void support_bounds(const Stage& stage, Bounds& bounds) {
   if (!stage.plane) return;
-  for (const SupportSymbol& s : stage.picture.supports) bounds.add(stage.at(s) + 1.35 * support_size * stage.em * stage.view.direction(s.normal));
+  const double depth = spring_depth(stage) + 1.35 - rest;
+  for (const SupportSymbol& s : stage.picture.supports)
+    bounds.add(foot(stage, s) + (s.kind == SupportKind::spring ? depth : 1.35) * support_size * stage.em * stage.view.direction(s.normal));
 }
 
 // Where a load arrow begins and ends: pixels, the third towards the eye.
@@ -135,7 +181,19 @@ void draw_loads(Stage& stage, vtkRenderer* renderer) {
   const double width = std::max(1.5, stage.em / 11), tip = 0.6 * stage.em;
   Arrows in_space(stage, width, tip);
   std::vector<Segment> drawn;
-  for (const std::size_t i : stage.spaced(stage.at(stage.picture.loads), 0.95 * stage.em)) {
+  if (stage.plane)
+    for (const auto& [first, next] : stretches_of(stage.picture.loads)) {
+      // How far it reaches: along the outer ends, but where arrows run along the boundary.
+      std::vector<Point> ends;
+      for (std::size_t i = first; i < next; ++i) {
+        const LoadArrow& load = stage.picture.loads[i];
+        const bool across = std::abs(dot(load.vector, load.normal)) > 0.3 * length(load.vector);
+        if (const Segment arrow = load_arrow(stage, load); across && stage.shows(arrow[0]) && stage.shows(arrow[1])) ends.push_back(arrow[length(arrow[0] - stage.at(load)) > 0.1 ? 0 : 1]);
+      }
+      stage.over.polyline(ends, width / 2, load_colour);
+      if (ends.size() > 1) stage.tell("loaded", ends);
+    }
+  for (const std::size_t i : chosen(stage, stage.picture.loads, 0.95 * stage.em)) {
     const Segment arrow = load_arrow(stage, stage.picture.loads[i]);
     if (!stage.stays(stage.picture.loads[i])) continue;
     if (length(arrow[1] - arrow[0]) < 0.1 * stage.em) continue;
@@ -144,6 +202,7 @@ void draw_loads(Stage& stage, vtkRenderer* renderer) {
     drawn.push_back(arrow);
     if (stage.plane) {
       stage.over.arrow(arrow[0], arrow[1], width, tip, load_colour);
+      stage.tell("load", arrow);
     } else {
       const auto [tail, head] = load_arrow_in_space(stage, stage.picture.loads[i]);
       in_space.add(tail, head);

@@ -17,7 +17,7 @@ constexpr double kIsotropic = 1e-3;                         // of the greatest s
 // The stress of a body at pixels, linear on triangles.
 class StressAt {
 public:
-  StressAt(const Stage& stage, const BodyPicture& body) : bin_(stage.em) {
+  StressAt(const Stage& stage, const BodyPicture& body) : bin_(stage.em), frame_(stage.frame.grown(stage.em)) {
     for (std::size_t i = 0; i < body.stress.size() / 3; ++i) {
       at_.push_back(stage.at(body, static_cast<int>(i), stage.picture.deformation));
       stress_.push_back({body.stress[3 * i], body.stress[3 * i + 1], body.stress[3 * i + 2]});
@@ -43,8 +43,11 @@ private:
   Bin bin(Point p) const { return {static_cast<int>(std::floor(p.x / bin_)), static_cast<int>(std::floor(p.y / bin_))}; }
 
   void add(const std::array<int, 3>& triangle) {
-    Bounds bounds;
-    for (const int i : triangle) bounds.add(at_[i]);
+    std::vector<Point> corners;
+    for (const int i : triangle) corners.push_back(at_[i]);
+    Bounds bounds;  // of what is seen of it
+    for (const Point& p : cropped(std::move(corners), frame_)) bounds.add(p);
+    if (bounds.empty()) return;
     const Bin low = bin({bounds.left, bounds.bottom}), high = bin({bounds.right, bounds.top});
     for (int x = low[0]; x <= high[0]; ++x)
       for (int y = low[1]; y <= high[1]; ++y) bins_[{x, y}].push_back(triangle);
@@ -66,6 +69,7 @@ private:
   }
 
   double bin_, greatest_ = 0;
+  Box frame_;
   std::vector<Point> at_;
   std::vector<Tensor> stress_;
   std::map<Bin, std::vector<std::array<int, 3>>> bins_;
