@@ -26,7 +26,7 @@ Vector local_stiffness(const Problem& problem) {
 
 Measure::Measure(const Problem& problem, Vector stiffness)
     : parts_(problem::parts(problem)), stiffness_(stiffness.size() > 0 ? std::move(stiffness) : local_stiffness(problem)),
-      gap_(problem.c.cwiseAbs()), load_(static_cast<std::size_t>(parts_.count), 0), at_rest_(load_) {
+      gap_(problem.c.cwiseAbs()), load_(static_cast<std::size_t>(parts_.count), 0), at_rest_(load_), moved_(load_) {
   take_loads(problem);
   take_rows(problem);
   count_others();
@@ -69,12 +69,18 @@ void Measure::take_rows(const Problem& problem) {
     at_rest.segment(first, group.components) = disc_factor(y.norm(), bound) * y;
   }
   at_rest_ = parts_.norm(at_rest);
+  Vector driven = problem.c;
+  for (Eigen::Index r = 0; r < driven.size(); ++r) driven[r] = at_rest[r] != 0 ? driven[r] : 0;
+  const std::vector<double> furthest = parts_.greatest(driven);
+  for (std::size_t b = 0; b < problem.blocks.size(); ++b)
+    if (const auto p = static_cast<std::size_t>(parts_.of_block[b]); load_[p] == 0 && furthest[p] > 0)
+      add(moved_[p], furthest[p] * problem.blocks[b].K.gross_times(Vector::Ones(problem.blocks[b].size())));
 }
 
 void Measure::count_others() {
   double greatest = 0;
   for (std::size_t p = 0; p < load_.size(); ++p) greatest = std::max({greatest, kBesideOthers * load_[p], kHalf * at_rest_[p]});
-  for (std::size_t p = 0; p < load_.size(); ++p) least_.push_back(load_[p] > 0 ? kHalf * at_rest_[p] : greatest);
+  for (std::size_t p = 0; p < load_.size(); ++p) least_.push_back(load_[p] > 0 ? kHalf * at_rest_[p] : std::max(greatest, kHalf * moved_[p]));
 }
 
 double Measure::least_force(std::size_t part) const { return std::max(kHalf * load_[part], least_[part]); }

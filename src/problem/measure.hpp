@@ -10,7 +10,7 @@ namespace dotyk::problem {
 /// Force: F = ‖f‖₂, or ‖λ⁰‖₂ if that is more. λ⁰_r = P(−k_r c_r) is the force that row r takes at rest where what it joins is as stiff as k_r.
 /// It is not zero where bodies overlap, where a displacement is prescribed, where slip is locked in from the step before, and where a law
 /// has a force of its own. Because k_r is local, λ⁰ may be far above all forces of the solution: bodies may get out of each other's way. Of a
-/// state, ‖λ⁰‖ therefore counts as no more than the state's forces, and as no less than √ε of itself.
+/// state, ‖λ⁰‖ therefore counts as no more than the state's forces, and as no less than √ε of itself or of ‖|K||w|‖, w a motion by the greatest such gap.
 ///
 /// Displacement: X = F/k of the part's stiffest row, or the greatest |u| and |Bu| of a state if that is more: a slender body yields far more
 /// than k says. Great multipliers do not make X greater. A row with a gap beyond X is measured by its gap.
@@ -43,7 +43,9 @@ class Measure {
 
   Parts parts_;
   algebra::Vector stiffness_, gap_;            ///< by row; gap_: |c|, 0 where there is none
-  std::vector<double> load_, at_rest_, least_; ///< by part: ‖f‖, ‖λ⁰‖, and what counts at least where bodies get out of each other's way
+  std::vector<double> load_, at_rest_;         ///< by part: ‖f‖, ‖λ⁰‖
+  std::vector<double> moved_;                  ///< by part that nothing loads: ‖|K||w|‖, w a motion by its greatest driving gap
+  std::vector<double> least_;                  ///< by part, what counts at least where bodies get out of each other's way
   std::vector<double> force_, length_;         ///< by part
 };
 

@@ -77,7 +77,7 @@ std::vector<BodyMotion> told(const std::vector<BodyMotion>& modes, const Vector&
   constexpr double kRest = 1e-6;  // of the greatest amount: what solvers leave in motions
   const Vector part = amounts.unaryExpr([greatest = amounts.lpNorm<Eigen::Infinity>()](double a) { return std::abs(a) > kRest * greatest ? a / greatest : 0; });
   std::vector<BodyMotion> all;
-  for (Eigen::Index first = 0, end = 0; first < part.size(); first = end) {
+  for (Eigen::Index first = 0, end = 0; first < part.size() && !modes.empty(); first = end) {
     const auto& [body, motion, sum] = modes[static_cast<std::size_t>(first)];
     while (end < part.size() && modes[static_cast<std::size_t>(end)].body == body) ++end;
     const Vector own = part.segment(first, end - first);

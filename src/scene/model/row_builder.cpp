@@ -1,5 +1,7 @@
 #include "scene/model/row_builder.hpp"
 
+#include <cmath>
+
 #include "base/text.hpp"
 
 namespace dotyk::scene {
@@ -58,8 +60,9 @@ void RowBuilder::finish() {
 void RowBuilder::collect(int body, int node, const Point& direction, double sign, double& gap) {
   const int dim = scene_.dimension();
   const elasticity::Numbering& numbering = model_.numbering[body];
+  const double rounding = 1e-14 * std::sqrt(dot(direction, direction));  // of normals; a row must not be met by a displacement of 1/ε of its gap
   for (int i = 0; i < dim; ++i) {
-    if (direction[i] == 0) continue;
+    if (std::abs(direction[i]) <= rounding) continue;
     const std::size_t at = static_cast<std::size_t>(node) * dim + i;
     if (numbering.unknown[at] >= 0) {
       rows.entry(model_.problem.blocks[body].first + numbering.unknown[at], sign * direction[i]);
