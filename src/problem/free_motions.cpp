@@ -26,8 +26,8 @@ double greatest_force(const Problem& problem, const Vector& lambda) {
 /// What the rows ask of a motion at these multipliers, as combinations of rows of B: held · r = 0, and limited · r ≤ slack.
 class Conditions {
  public:
-  Conditions(const Problem& problem, const State& state, double tolerance)
-      : x_(jumps(problem, state.u)), lambda_(state.lambda), small_(small_forces(problem, state.lambda, tolerance)),
+  Conditions(const Problem& problem, const State& state, double tolerance, bool springs_hold)
+      : springs_hold_(springs_hold), x_(jumps(problem, state.u)), lambda_(state.lambda), small_(small_forces(problem, state.lambda, tolerance)),
         compliance_(problem.row_compliance()),
         left_(10 * tolerance * greatest_force(problem, state.lambda)) {
     for (const RowGroup& group : problem.groups)
@@ -43,6 +43,7 @@ class Conditions {
   void add(const Law& law, int row, int k) {
     const auto [low, high] = law.multipliers(k);
     if (low == high) return;  // it bears the same wherever it is
+    if (const auto k_linear = law.linear_stiffness(k); k_linear && std::isfinite(*k_linear) && !springs_hold_) return;
     if (!law.springs(k)) {  // where it might give way is not known
       held_.emplace_back(held_count_++, row, 1.0);
       return;
@@ -81,6 +82,7 @@ class Conditions {
     slack_.push_back(std::max(slack, 0.0));
   }
 
+  bool springs_hold_;
   Vector x_;
   const Vector& lambda_;
   Vector small_, compliance_;  ///< by row: forces that are none; see Problem::row_compliance()
@@ -128,13 +130,13 @@ Vector small_forces(const Problem& problem, const Vector& lambda, double toleran
   return (tolerance * least).cwiseMax(rounding);
 }
 
-FreeMotions free_motions(const Problem& problem, const State& state, double tolerance) {
+FreeMotions free_motions(const Problem& problem, const State& state, double tolerance, bool springs_hold) {
   FreeMotions free;
   const SparseMatrix N = jumps_of_modes(problem);
   const Eigen::Index modes = N.cols();
   free.motions = free.unnoticed = SparseMatrix(modes, 0);
   if (modes == 0) return free;
-  const Conditions conditions(problem, state, tolerance);
+  const Conditions conditions(problem, state, tolerance, springs_hold);
   const SparseMatrix held = conditions.held(N);
   const int holds = algebra::rank(held, kNotAtAll);
   if (holds == modes) {

@@ -31,7 +31,7 @@ algebra::Vector small_forces(const Problem& problem, const algebra::Vector& lamb
 /// Of a gap: a force that yields less on a row which is open that far is what the method left.
 inline constexpr double kBesideGap = 1e-3;
 
-/// `tolerance`: of small_forces(); multipliers so near to a bound are on it.
-FreeMotions free_motions(const Problem& problem, const State& state, double tolerance);
+/// `tolerance`: of small_forces(); multipliers so near to a bound are on it. `springs_hold`: do rows of linear springs hold what moves them?
+FreeMotions free_motions(const Problem& problem, const State& state, double tolerance, bool springs_hold = true);
 
 }  // namespace dotyk::problem

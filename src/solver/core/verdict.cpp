@@ -6,6 +6,8 @@
 #include <stdexcept>
 
 #include "base/text.hpp"
+#include "problem/free_motions.hpp"
+#include "solver/core/settle.hpp"
 
 namespace dotyk::solver {
 
@@ -72,6 +74,27 @@ void refuse_lost_motions(double softest, Result& result) {
   if (lost > result.noise) refuse(text("rounding may leave ", lost, " of a motion that supports hardly hold"), result);
 }
 
+/// Rows of springs may hold a motion alone. What is left of equilibrium along it, however small beside all forces, moves it by this over their stiffness.
+void refuse_lost_motions(const Problem& problem, Result& result) {
+  algebra::Vector springs = algebra::Vector::Zero(problem.rows());
+  for (const auto& [law, k, r] : problem.scalar_rows())
+    if (const auto own = law.linear_stiffness(k); own && std::isfinite(*own)) springs[r] = *own;
+  if (springs.isZero(0) || problem.hides()) return;
+  const problem::FreeMotions free = problem::free_motions(problem, result.state, kOnBound, false);
+  if (free.motions.cols() == 0) return;
+  const problem::RigidMotions rigid = problem::rigid_motions(problem);
+  const algebra::Vector left = rigid.e - rigid.N.transpose() * result.state.lambda;
+  const algebra::SparseMatrix jump = rigid.N * free.motions, moved = problem::displacement(problem, free.motions);
+  const double size = result.state.u.here().lpNorm<Eigen::Infinity>();
+  double lost = 0;
+  for (int m = 0; m < free.motions.cols(); ++m) {
+    const algebra::Vector own = jump.col(m);
+    if (const double held = own.cwiseAbs2().dot(springs); held > 0)
+      lost = std::max(lost, std::abs(free.motions.col(m).dot(left)) / held * algebra::Vector(moved.col(m)).lpNorm<Eigen::Infinity>());
+  }
+  if (lost > result.noise * size) refuse(text("what is left of equilibrium may be ", lost, " of a motion that springs alone hold, beside displacements of ", size), result);
+}
+
 std::size_t first_clause(const std::string& reason) { return std::min(reason.find("; "), reason.size()); }
 
 }  // namespace
@@ -91,6 +114,7 @@ Residual judge(const Problem& problem, Result& result, double softest) {
   require_finite(problem, result, r);
   if (result.converged) refuse_residuals(problem, r, result);
   if (result.converged) refuse_lost_motions(softest, result);
+  if (result.converged) refuse_lost_motions(problem, result);
   return r;
 }
 
