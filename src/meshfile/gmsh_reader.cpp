@@ -2,18 +2,18 @@
 //   dotyk_gmsh FILE DIMENSION SIZE ORDER     DIMENSION 0: that of the geometry; SIZE 0, ORDER 1: as the geometry says
 #include <gmsh.h>
 
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <cstdio>
-#include <map>
 #include <stdexcept>
-#include <unordered_map>
 
-#include "gmsh_types.hpp"
+#include "reader/bytes.hpp"
 #include "reader/reader_main.hpp"
 
 namespace {
 
-using namespace dotyk::meshfile;
-using dotyk::reader::answer, dotyk::reader::limit_reader;
+using namespace dotyk::reader;
 
 /// The first error that Gmsh had to report; its exceptions name only the last.
 std::string complaint() {
@@ -51,82 +51,74 @@ void run(Step step) {
   if (!thrown.empty()) throw std::runtime_error("Gmsh: " + thrown);
 }
 
-class Reader {
- public:
-  Contents read() {
-    read_nodes();
-    read_groups();
-    gmsh::vectorpair entities;
-    gmsh::model::getEntities(entities);
-    for (const auto& [dimension, tag] : entities)
-      if (dimension > 0) read_entity(dimension, tag);
-    return std::move(contents_);
-  }
+template <class Sequence>
+void put_values(std::FILE* out, const Sequence& values) {
+  for (const auto& value : values) put(out, value);
+}
 
- private:
-  void read_nodes() {
-    std::vector<std::size_t> tags;
-    std::vector<double> x, unused;
-    gmsh::model::mesh::getNodes(tags, x, unused, -1, -1, false, false);
-    if (x.size() != 3 * tags.size()) throw std::runtime_error("its nodes are damaged");
-    if (tags.size() > 2'000'000'000) throw std::runtime_error("it has more nodes than this program can number");
-    place_.reserve(tags.size());
-    for (std::size_t i = 0; i < tags.size(); ++i) place_.emplace(tags[i], static_cast<int>(i));
-    contents_.points = std::move(x);
-  }
-
-  void read_groups() {
-    gmsh::vectorpair groups;
-    gmsh::model::getPhysicalGroups(groups);
-    for (const auto& [dimension, tag] : groups) {
-      std::string name;
-      gmsh::model::getPhysicalName(dimension, tag, name);
-      std::vector<int> entities;
-      gmsh::model::getEntitiesForPhysicalGroup(dimension, tag, entities);
-      for (const int e : entities) groups_[{dimension, e}].push_back(static_cast<int>(contents_.groups.size()));
-      contents_.groups.push_back({dimension, name.empty() ? std::to_string(tag) : name});
-    }
-  }
-
-  void read_entity(int dimension, int tag) {
-    std::vector<int> types;
-    std::vector<std::vector<std::size_t>> elements, nodes;
-    gmsh::model::mesh::getElements(types, elements, nodes, dimension, tag);
-    for (std::size_t t = 0; t < types.size(); ++t) {
-      // Gmsh lists elements of a shape only as far as they are of the type of the first of them.
-      std::vector<std::size_t> all, none;
-      gmsh::model::mesh::preallocateElementsByType(types[t], true, false, all, none, tag);
-      if (all.size() != elements[t].size()) throw std::runtime_error("a geometry with elements of several orders; mesh it with one");
-      add(dimension, tag, types[t], nodes[t]);
-    }
-  }
-
-  /// A block of elements of a type of Gmsh's, with their nodes one after the other.
-  void add(int dimension, int tag, int number, const std::vector<std::size_t>& nodes) {
-    const GmshType type = gmsh_type(number);
-    if (!type.shape) throw std::runtime_error("it has elements of an unknown type");
-    Block block{*type.shape, groups_[{dimension, tag}], {}, type.order};
-    std::vector<int> places;
-    for (const std::size_t node : nodes) places.push_back(place(node));
-    for (std::size_t k = 0; k + type.nodes <= places.size(); k += type.nodes) add_element(type, block, &places[k]);
-    contents_.blocks.push_back(std::move(block));
-  }
-
-  int place(std::size_t node) const {
-    const auto at = place_.find(node);
-    if (at == place_.end()) throw std::runtime_error("node " + std::to_string(node) + " is used and not there");
-    return at->second;
-  }
-
-  Contents contents_;
-  std::unordered_map<std::size_t, int> place_;
-  std::map<std::pair<int, int>, std::vector<int>> groups_;
+struct Elements {
+  int dimension, entity, type;
+  std::vector<std::size_t> numbers, nodes;
 };
 
-Contents read_all() {
-  Contents result;
-  run([&] { result = Reader().read(); });
+/// Of all entities; Gmsh lists elements of a shape only as far as they are of the type of the first of them.
+std::vector<Elements> all_elements(const gmsh::vectorpair& entities) {
+  std::vector<Elements> result;
+  for (const auto& [dimension, tag] : entities) {
+    std::vector<int> types;
+    std::vector<std::vector<std::size_t>> numbers, nodes;
+    gmsh::model::mesh::getElements(types, numbers, nodes, dimension, tag);
+    for (std::size_t t = 0; t < types.size(); ++t) {
+      std::vector<std::size_t> all, none;
+      gmsh::model::mesh::preallocateElementsByType(types[t], true, false, all, none, tag);
+      if (all.size() != numbers[t].size()) throw std::runtime_error("it has elements of several orders; mesh it with one");
+      result.push_back({dimension, tag, types[t], std::move(numbers[t]), std::move(nodes[t])});
+    }
+  }
   return result;
+}
+
+/// The model as a file of version 4.1, binary; see read_msh().
+void write_model(std::FILE* out) {
+  using Size = std::uint64_t;
+  std::fputs("$MeshFormat\n4.1 1 8\n", out), put(out, 1);
+  gmsh::vectorpair groups, entities;
+  gmsh::model::getPhysicalGroups(groups);
+  std::fprintf(out, "\n$EndMeshFormat\n$PhysicalNames\n%zu\n", groups.size());
+  for (const auto& [dimension, tag] : groups) {
+    std::string name;
+    gmsh::model::getPhysicalName(dimension, tag, name);
+    std::fprintf(out, "%d %d \"%s\"\n", dimension, tag, name.empty() ? std::to_string(tag).c_str() : name.c_str());
+  }
+  std::fputs("$EndPhysicalNames\n$Entities\n", out);
+  gmsh::model::getEntities(entities);
+  Size count[4] = {};
+  for (const auto& entity : entities) ++count[entity.first];
+  put_values(out, count);
+  for (const auto& [dimension, tag] : entities) {
+    std::vector<int> physical;
+    gmsh::model::getPhysicalGroupsForEntity(dimension, tag, physical);
+    put(out, tag), put_values(out, std::vector<double>(dimension == 0 ? 3 : 6)), put_all(out, physical);
+    if (dimension > 0) put(out, Size{0});
+  }
+  std::vector<std::size_t> nodes;
+  std::vector<double> x, unused;
+  gmsh::model::mesh::getNodes(nodes, x, unused, -1, -1, false, false);
+  std::fputs("\n$EndEntities\n$Nodes\n", out), put_values(out, std::vector<Size>{1, nodes.size(), 0, 0});
+  put_values(out, std::vector<int>{0, 0, 0}), put_all(out, nodes), put_values(out, x);
+  const std::vector<Elements> elements = all_elements(entities);
+  Size all = 0;
+  for (const Elements& e : elements) all += e.numbers.size();
+  std::fputs("\n$EndNodes\n$Elements\n", out), put_values(out, std::vector<Size>{elements.size(), all, 0, 0});
+  for (const Elements& e : elements) {
+    put_values(out, std::vector<int>{e.dimension, e.entity, e.type}), put(out, Size{e.numbers.size()});
+    const std::size_t each = e.nodes.size() / e.numbers.size();
+    for (std::size_t k = 0; k < e.numbers.size(); ++k) {
+      put(out, e.numbers[k]);
+      for (std::size_t i = 0; i < each; ++i) put(out, e.nodes[k * each + i]);
+    }
+  }
+  std::fputs("\n$EndElements\n", out);
 }
 
 int geometry_dimension() {
@@ -138,17 +130,31 @@ int geometry_dimension() {
   throw std::runtime_error("the geometry has no surface and no volume to mesh");
 }
 
-Contents generate(const std::string& file, int dimension, double size, int order) {
+/// Cells that curved sides turn inside out, as far as Gmsh can. That it cannot it calls an error; dotyk refuses them by their places.
+void mend_curved_cells() {
+  std::vector<std::size_t> nodes, again;
+  std::vector<double> before, after, unused;
+  gmsh::model::mesh::getNodes(nodes, before, unused, -1, -1, false, false);
+  try {
+    gmsh::model::mesh::optimize("HighOrder");
+  } catch (...) {
+  }
+  gmsh::model::mesh::getNodes(again, after, unused, -1, -1, false, false);
+  if (again != nodes || !std::all_of(after.begin(), after.end(), [](double x) { return std::isfinite(x); }))
+    for (std::size_t k = 0; k < nodes.size(); ++k) gmsh::model::mesh::setNode(nodes[k], {&before[3 * k], &before[3 * k] + 3}, {});
+  gmsh::logger::stop();
+  gmsh::logger::start();
+}
+
+void generate(const std::string& file, int dimension, double size, int order) {
   start();
   run([&] { gmsh::merge(file); });
   if (dimension == 0) dimension = geometry_dimension();
   if (size > 0) gmsh::option::setNumber("Mesh.MeshSizeMax", size);
-  if (order == 2) {
-    gmsh::option::setNumber("Mesh.ElementOrder", 2);
-    gmsh::option::setNumber("Mesh.HighOrderOptimize", 1);  // cells that curved sides would turn inside out
-  }
+  if (order == 2) gmsh::option::setNumber("Mesh.ElementOrder", 2);
+  gmsh::option::setNumber("Mesh.HighOrderOptimize", 0);
   run([&] { gmsh::model::mesh::generate(dimension); });
-  return read_all();
+  if (order == 2) mend_curved_cells();
 }
 
 }  // namespace
@@ -156,7 +162,10 @@ Contents generate(const std::string& file, int dimension, double size, int order
 int main(int count, char** argument) {
   if (count == 5) {
     limit_reader();
-    return answer([&](std::FILE* out) { write(out, generate(argument[1], std::stoi(argument[2]), std::stod(argument[3]), std::stoi(argument[4]))); });
+    return answer([&](std::FILE* out) {
+      generate(argument[1], std::stoi(argument[2]), std::stod(argument[3]), std::stoi(argument[4]));
+      run([&] { write_model(out); });
+    });
   }
   return 2;
 }

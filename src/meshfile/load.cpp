@@ -64,9 +64,10 @@ std::string exact(double value) {
 
 Loaded mesh_file(const std::string& file, const Meshing& meshing, const Choice& choice, const std::string& what, Monitor& monitor) {
   const std::vector<std::string> arguments{plain(file), std::to_string(meshing.dimension), exact(meshing.size), std::to_string(choice.order)};
-  const std::string answer = output_of(gmsh_program(), arguments, what, monitor);
+  const std::string answer = output_of(gmsh_program(), arguments, what, monitor,
+                                       "does a loop in the geometry not end, or is the mesh to be far too fine?");
   if (answer.empty()) throw InputError(what + ": Gmsh ended without a mesh; does the geometry say Exit?");  // which ends the program
-  return assemble(read(answer), choice, what);
+  return assemble(read_msh(answer, what), choice, what);
 }
 
 /// A text as a file in memory, which the programs that this one starts can open by its name.

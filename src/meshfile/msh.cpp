@@ -3,13 +3,56 @@
 #include <cstdint>
 #include <cstdlib>
 #include <map>
+#include <optional>
 #include <unordered_map>
 
-#include "meshfile/gmsh_types.hpp"
 #include "meshfile/words.hpp"
 
 namespace dotyk::meshfile {
 namespace {
+
+/// One of Gmsh's element types. Its nodes are the corners, in our order, then others.
+struct Type {
+  std::optional<Shape> shape = {};  ///< none: a point
+  int order = 1;
+  int nodes = 0;  ///< 0: a type that is not known here
+};
+
+/// By Gmsh's number: points, and elements of order 1 to 5.
+Type type_of(int number) {
+  using enum Shape;
+  static const std::map<int, Type> types{
+      {1, {segment, 1, 2}}, {2, {triangle, 1, 3}}, {3, {quadrilateral, 1, 4}}, {4, {tetrahedron, 1, 4}},
+      {5, {hexahedron, 1, 8}}, {6, {prism, 1, 6}}, {7, {pyramid, 1, 5}}, {8, {segment, 2, 3}}, {9, {triangle, 2, 6}},
+      {10, {quadrilateral, 2, 9}}, {11, {tetrahedron, 2, 10}}, {12, {hexahedron, 2, 27}}, {13, {prism, 2, 18}},
+      {14, {pyramid, 2, 14}}, {15, {{}, 0, 1}}, {16, {quadrilateral, 2, 8}}, {17, {hexahedron, 2, 20}},
+      {18, {prism, 2, 15}}, {19, {pyramid, 2, 13}}, {20, {triangle, 3, 9}}, {21, {triangle, 3, 10}},
+      {22, {triangle, 4, 12}}, {23, {triangle, 4, 15}}, {24, {triangle, 5, 15}}, {25, {triangle, 5, 21}},
+      {26, {segment, 3, 4}}, {27, {segment, 4, 5}}, {28, {segment, 5, 6}}, {29, {tetrahedron, 3, 20}},
+      {30, {tetrahedron, 4, 35}}, {31, {tetrahedron, 5, 56}}, {32, {tetrahedron, 4, 22}}, {33, {tetrahedron, 5, 28}},
+      {36, {quadrilateral, 3, 16}}, {37, {quadrilateral, 4, 25}}, {38, {quadrilateral, 5, 36}},
+      {39, {quadrilateral, 3, 12}}, {40, {quadrilateral, 4, 16}}, {41, {quadrilateral, 5, 20}}, {90, {prism, 3, 40}},
+      {91, {prism, 4, 75}}, {92, {hexahedron, 3, 64}}, {93, {hexahedron, 4, 125}}, {94, {hexahedron, 5, 216}},
+      {99, {hexahedron, 3, 32}}, {100, {hexahedron, 4, 44}}, {101, {hexahedron, 5, 56}}, {106, {prism, 5, 126}},
+      {111, {prism, 3, 24}}, {112, {prism, 4, 33}}, {113, {prism, 5, 42}}, {118, {pyramid, 3, 30}},
+      {119, {pyramid, 4, 55}}, {120, {pyramid, 5, 91}}, {125, {pyramid, 3, 21}}, {126, {pyramid, 4, 29}},
+      {127, {pyramid, 5, 37}}, {137, {tetrahedron, 3, 16}}};
+  const auto at = types.find(number);
+  return at == types.end() ? Type() : at->second;
+}
+
+/// Adds an element to a block of its type; `nodes`: where they stand in Contents::points.
+void add_element(const Type& type, Block& block, const int* nodes) {
+  static const std::vector<int> in_order{0, 1, 2, 3, 4}, tetrahedron{0, 1, 2, 3, 5, 4},
+      hexahedron{0, 3, 8, 1, 9, 2, 10, 11, 4, 7, 5, 6, 16, 14, 12, 13, 15, 17, 18};  // places in between_corners()
+  const int corners = kind(block.shape).nodes;
+  block.nodes.insert(block.nodes.end(), nodes, nodes + corners);
+  if (type.order != 2 || !kind(block.shape).cell) return;
+  const auto& places = block.shape == Shape::tetrahedron ? tetrahedron : block.shape == Shape::hexahedron ? hexahedron : in_order;
+  const std::size_t first = block.between.size();
+  block.between.resize(first + between_corners(block.shape).size(), -1);
+  for (int k = corners; k < type.nodes; ++k) block.between[first + places[k - corners]] = nodes[k];
+}
 
 class MshReader {
  public:
@@ -22,7 +65,7 @@ class MshReader {
       if (section == "$PhysicalNames") read_names();
       else if (section == "$Entities" || section == "$PartitionedEntities") read_entities(section == "$PartitionedEntities");
       else if (section == "$Nodes") read_nodes();
-      else if (section == "$Elements") version_ < 4 ? read_elements() : read_blocks_of_elements();
+      else if (section == "$Elements") read_elements();
       else if (section == "$ParametricNodes") in_.fail("its nodes have parameters; save it without them (Mesh.SaveParametric = 0)");
       else if (!in_.skip_beyond(text("$End", section.substr(1))))
         in_.fail(text("its section ", in_quotes(section), " does not end: the file is cut off"));
@@ -47,12 +90,7 @@ class MshReader {
     const int size = in_.number<int>("the size of a number");
     if (binary_ && size != 8) in_.fail(text("its numbers have ", size, " bytes; 8 are expected"));
     begin_bytes();
-    if (binary_) {
-      in_.binary();
-      std::int32_t one = 0;
-      in_.bytes(&one, sizeof one, "a one in binary");
-      swapped_ = one != 1;
-    }
+    swapped_ = binary_ && whole("a one in binary") != 1;
     end("$EndMeshFormat");
   }
 
@@ -119,81 +157,67 @@ class MshReader {
     for (int i = 0; i < 3; ++i) contents_.points.push_back(real("a coordinate"));
   }
 
-  /// Of version 2. Binary elements of one type and number of tags come together.
+  /// Version 4: blocks of one entity and type. Version 2: each with its tags, the first of which is its physical group; binary ones of
+  /// one type and number of tags together.
   void read_elements() {
-    const long long said = count("the number of elements");
-    begin_bytes();
-    std::map<std::pair<int, int>, Block> blocks;  // of each type and physical group
-    for (long long done = 0, last; done < said; done = last) {
-      if (in_.ahead("$EndElements")) end("$EndElements", done, said, "elements");
-      if (!binary_) whole("an element's number");
-      const int number = whole("an element's type");
-      const GmshType type = known(number);
-      last = done + (binary_ ? whole("a number of elements") : 1);
-      const int tags = whole("the number of an element's tags");
-      if (last <= done || last > said) end("$EndElements", last, said, "elements");
-      for (; done < last; ++done) {
-        if (binary_) whole("an element's number");
-        const int group = tags > 0 ? whole("a tag") : 0;
-        for (int t = 1; t < tags; ++t) whole("a tag");
-        auto block = blocks.find({number, group});
-        if (block == blocks.end()) block = blocks.emplace(std::pair{number, group}, block_of(type, {group})).first;
-        add(type, block->second);
-      }
-    }
-    for (auto& [of, block] : blocks)
-      if (!block.nodes.empty()) contents_.blocks.push_back(std::move(block));
-    end("$EndElements", said, said, "elements");
-  }
-
-  void read_blocks_of_elements() {
-    begin_bytes();
-    long long blocks = count("the number of blocks of elements"), done = 0;
+    const bool in_blocks = version_ >= 4;
+    if (in_blocks) begin_bytes();
+    long long blocks = in_blocks ? count("the number of blocks of elements") : 0, done = 0;
     const long long said = count("the number of elements");
     if (version_ >= 4.1) wide("the least number of an element"), wide("the greatest number of an element");
-    for (; blocks > 0; --blocks) {
-      const auto at = entity();
-      const GmshType type = known(whole("the type of a block's elements"));
-      if (at.first != dimension(type)) in_.fail(text("elements of dimension ", dimension(type), " in a block of dimension ", at.first));
-      Block block = block_of(type, groups_of_[at]);
-      for (long long k = count("the number of elements of a block"); k > 0; --k, ++done) {
+    if (!in_blocks) begin_bytes();
+    while (in_blocks ? blocks-- > 0 : done < said) {
+      if (in_.ahead("$EndElements")) end("$EndElements", done, said, "elements");
+      std::vector<int> groups(1);
+      const auto at = in_blocks ? entity() : std::pair{0, 0};
+      if (in_blocks) groups = groups_of_[at];
+      else if (!binary_) whole("an element's number");
+      const int type = whole("an element's type");
+      long long here = in_blocks ? count("the number of a block's elements") : binary_ ? whole("a number of elements") : 1;
+      const int tags = in_blocks ? 0 : whole("the number of an element's tags");
+      for (; here > 0; --here, ++done) {
         if (in_.ahead("$EndElements")) end("$EndElements", done, said, "elements");
-        tag("an element's number");
-        add(type, block);
+        if (in_blocks || binary_) tag("an element's number");
+        for (int t = 0; t < tags; ++t)
+          if (const int tag = whole("a tag"); t == 0) groups[0] = tag;
+        add(type, groups);
       }
-      if (!block.nodes.empty()) contents_.blocks.push_back(std::move(block));
     }
+    for (auto& [of, block] : blocks_)
+      if (!block.nodes.empty()) contents_.blocks.push_back(std::move(block));
     end("$EndElements", done, said, "elements");
   }
 
-  GmshType known(int number) const {
-    const GmshType type = gmsh_type(number);
-    if (type.nodes == 0) in_.fail(text("there is no type ", number, " of elements; has the file as many as it says?"));
-    return type;
-  }
-  static int dimension(const GmshType& type) { return type.shape ? kind(*type.shape).dimension : 0; }
-
-  Block block_of(const GmshType& type, const std::vector<int>& physical) {
-    Block block{type.shape.value_or(Shape::segment), {}, {}, type.order};
-    for (const int tag : physical) {
-      const std::pair key{dimension(type), std::abs(tag)};  // negative: elements turned over
+  /// The groups of an element's dimension with these tags, negative where it is turned over there; 0: none.
+  std::vector<int> groups(int dimension, const std::vector<int>& tags) {
+    std::vector<int> result;
+    for (const int tag : tags) {
       if (tag == 0) continue;
+      const std::pair key{dimension, std::abs(tag)};
       const auto [group, fresh] = group_.try_emplace(key, static_cast<int>(contents_.groups.size()));
-      if (fresh) contents_.groups.push_back({key.first, names_.contains(key) ? names_[key] : std::to_string(key.second)});
-      block.groups.push_back(group->second);
+      if (fresh) contents_.groups.push_back({dimension, names_.contains(key) ? names_[key] : std::to_string(key.second)});
+      result.push_back(group->second);
     }
-    return block;
+    return result;
   }
 
-  void add(const GmshType& type, Block& block) {
+  /// The element whose nodes come next.
+  void add(int number, const std::vector<int>& tags) {
+    if (!last_ || last_->first.first != number || last_->first.second != tags) {
+      const Type type = type_of(number);
+      if (type.nodes == 0) in_.fail(text("elements of type ", number, " are not read, those of order 1 to 5 are; has it as many as it says?"));
+      const std::vector<int> of = groups(type.shape ? kind(*type.shape).dimension : 0, tags);
+      last_ = &*blocks_.try_emplace({number, tags}, Block{type.shape.value_or(Shape::segment), of, {}, type.order}).first;
+      type_ = type;
+    }
     nodes_.clear();
-    for (int k = 0; k < type.nodes; ++k) {
-      const long long number = tag("a node of an element");
-      const auto at = place_.find(number);
-      if (at == place_.end()) in_.fail(text("node ", number, " of an element is not there"));
+    for (int k = 0; k < type_.nodes; ++k) {
+      const long long node = tag("a node of an element");
+      const auto at = place_.find(node);
+      if (at == place_.end()) in_.fail(text("node ", node, " of an element is not there"));
       nodes_.push_back(at->second);
     }
-    if (type.shape) add_element(type, block, nodes_.data());
+    if (type_.shape) add_element(type_, last_->second, nodes_.data());
   }
 
   /// Dimension and number of the entity that a block is of.
@@ -240,7 +264,10 @@ class MshReader {
   std::map<std::pair<int, int>, int> group_;                       // likewise → place in contents_.groups
   std::map<std::pair<int, int>, std::vector<int>> groups_of_;      // of dimension and entity: physical groups
   std::unordered_map<long long, int> place_;                       // of nodes by their numbers
-  std::vector<int> nodes_;
+  std::map<std::pair<int, std::vector<int>>, Block> blocks_;       // of a type and physical groups
+  decltype(blocks_)::value_type* last_ = nullptr;                  // that the last element is of, and its type
+  Type type_;
+  std::vector<int> nodes_;                                         // of an element
   Contents contents_;
 };
 

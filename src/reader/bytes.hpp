@@ -11,6 +11,7 @@
 namespace dotyk::reader {
 
 constexpr std::uint64_t kWhole = 0x646f74796b6d6573;  // "dotykmes"
+constexpr int kNoMemory = 3;                          ///< status of a reader that memory did not suffice for
 
 /// Throws std::runtime_error where it cannot be written.
 template <class T>

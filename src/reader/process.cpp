@@ -19,6 +19,7 @@
 #include "base/memory.hpp"
 #include "base/open_library.hpp"
 #include "base/text.hpp"
+#include "reader/bytes.hpp"
 
 extern char** environ;
 
@@ -147,21 +148,22 @@ std::string require_program(const std::string& name, const std::string& library)
 }
 
 std::string output_of(const std::string& program, const std::vector<std::string>& arguments, const std::string& what,
-                      Monitor& monitor) {
+                      Monitor& monitor, const std::string& why) {
   Child child(program, arguments);
   std::string out = child.output(monitor);
   const int status = child.wait();
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return out;
   if (WIFEXITED(status) && WEXITSTATUS(status) == 1) throw InputError(what + ": " + out);
+  if (WIFEXITED(status) && WEXITSTATUS(status) == kNoMemory) throw InputError(what + ": it needs more memory than there is; " + why);
   constexpr int cannot_begin = 127;
   if (WIFEXITED(status) && WEXITSTATUS(status) == cannot_begin && std::isfinite(address_space_left()))
     throw std::runtime_error(what + ": " + program + " cannot begin within the limit of memory (--memory, ulimit -v)");
   if (!WIFSIGNALED(status)) throw std::runtime_error(text(what, ": ", program, " failed with status ", WEXITSTATUS(status)));
   switch (const int signal = WTERMSIG(status)) {
     case SIGINT: throw Interrupted();
-    case SIGXCPU:
-    case SIGKILL: throw InputError(what + ": reading it took too long, or more memory than there is; the file may be damaged");
-    default: throw InputError(text(what, ": the library that reads it crashed on it (", strsignal(signal), "); the file may be damaged"));
+    case SIGXCPU: throw InputError(what + ": it takes more processors' time than it may; " + why);
+    case SIGKILL: throw InputError(what + ": the system has ended its reader, as it does where memory is short; " + why);
+    default: throw InputError(text(what, ": the library that reads it crashed on it (", strsignal(signal), "); ", why));
   }
 }
 

@@ -16,9 +16,9 @@ std::string require_program(const std::string& name, const std::string& library)
 /// makes a library crash or take all memory ends that process and no more. Its standard error is not shown.
 ///
 /// Throws InputError, beginning with `what`: the program's own message (its output, where it ends with status 1),
-/// or that it crashed or took too long; Interrupted where the monitor asks to stop; std::runtime_error where it
-/// cannot start.
+/// or that it crashed or took more time or memory than it may, then `why`, what that may come from; Interrupted where the
+/// monitor asks to stop; std::runtime_error where it cannot start.
 std::string output_of(const std::string& program, const std::vector<std::string>& arguments, const std::string& what,
-                      Monitor& monitor);
+                      Monitor& monitor, const std::string& why = "the file may be damaged");
 
 }  // namespace dotyk::reader

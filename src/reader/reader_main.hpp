@@ -16,6 +16,7 @@
 #include <string>
 
 #include "base/memory.hpp"
+#include "reader/bytes.hpp"
 
 namespace dotyk::reader {
 
@@ -52,7 +53,7 @@ inline void limit_reader(const std::string& file) {
   limit(RLIMIT_CPU, 20 + 1e-6 * bytes);
 }
 
-/// Lets `write` write what it reads, status 0; of what it throws, before it has written, the message, status 1. Libraries
+/// Lets `write` write what it reads, status 0; of what it throws, before it has written, the message, status 1, or kNoMemory. Libraries
 /// that write to standard output do not get into the answer.
 inline int answer(const std::function<void(std::FILE*)>& write) {
   std::FILE* out = fdopen(dup(STDOUT_FILENO), "wb");
@@ -62,7 +63,7 @@ inline int answer(const std::function<void(std::FILE*)>& write) {
     std::fflush(out);
     std::_Exit(0);  // nothing of the libraries' own ends is needed
   } catch (const std::bad_alloc&) {
-    std::fputs("it needs more memory than there is; the file may be damaged", out);
+    std::_Exit(kNoMemory);
   } catch (const std::exception& e) {
     std::fputs(e.what(), out);
   }

@@ -15,6 +15,7 @@
 #include <cmath>
 #include <csignal>
 #include <filesystem>
+#include <map>
 
 #include "figure/compose/compose.hpp"
 #include "mesh/generators.hpp"
@@ -236,6 +237,65 @@ TEST_CASE("the arrays are what the solution says") {
       CHECK(value("contact_status", node) == static_cast<int>(n.status));
     }
   }
+}
+
+TEST_CASE("the pressure of a file, integrated over the faces of cells of either order, is the contact's force") {
+  for (const mesh::Family family : {mesh::Family::p1, mesh::Family::q1, mesh::Family::p2, mesh::Family::q2})
+    for (const int dim : {2, 3})
+      for (const bool rigid : {true, false}) {
+        // A block pressed on a ball, or on another block, and tilted, so that part of it opens.
+        const double from[3] = {0, 0, 0}, low[3] = {0, -1, 0}, to[3] = {1, 1, 1}, middle[3] = {1, 0, 1};
+        const int cells[3] = {4, 2, 2};
+        const mesh::Grading even[3];
+        const auto body_of = [&](const char* name, const double* a, const double* b) {
+          return scene::make_body(name, std::make_shared<mesh::Mesh>(dim == 2 ? mesh::rectangle(a, b, cells, family, even) : mesh::box(a, b, cells, family, even)),
+                                  elasticity::MaterialField(elasticity::isotropic(10, 0.2, dim, elasticity::Plane::strain)), {});
+        };
+        const std::string low_side = dim == 2 ? "bottom" : "front", high_side = dim == 2 ? "top" : "back";  // of y
+        const auto upper = body_of("upper", from, to), lower = body_of("lower", low, middle);
+        auto pressed = scene::named_part(upper, high_side), held = scene::named_part(lower, low_side);
+        const auto none = [](const mesh::Point&) { return 0.0; };
+        scene::displace(pressed, {none, [](const mesh::Point& x) { return -0.1 + 0.15 * x[0]; }, none});
+        scene::fix(held, {true, true, true});
+        const auto s = rigid ? scene::make_scene({upper}) : scene::make_scene({upper, lower});
+        if (rigid) scene::add_contact(*s, scene::named_part(upper, low_side), contact::RigidBall{{0.2, -1, dim == 2 ? 0. : 0.5}, 1}, {}, false);
+        else scene::add_contact(*s, scene::named_part(upper, low_side), scene::named_part(lower, high_side), {});
+        Monitor monitor;
+        const auto solved = scene::solve(s, {}, {}, monitor);
+        REQUIRE(solved->result().converged);
+        const auto result = solved->contact(*s->contacts[0]);
+        REQUIRE((result.open > 0 && result.closed > 0));
+        figure::write(figure::compose_grid(*solved, "pressed.vtu"));
+        const auto grid = read("pressed.vtu");
+        vtkDataArray *pressure = grid->GetPointData()->GetArray("contact_pressure"), *status = grid->GetPointData()->GetArray("contact_status");
+        double force[2] = {0, 0};  // of the upper block's faces in the plane y = 0, of the lower one's
+        for (int c = 0; c < grid->GetNumberOfCells(); ++c)
+          for (int f = 0; f < (dim == 2 ? grid->GetCell(c)->GetNumberOfEdges() : grid->GetCell(c)->GetNumberOfFaces()); ++f) {
+            vtkCell* face = dim == 2 ? grid->GetCell(c)->GetEdge(f) : grid->GetCell(c)->GetFace(f);
+            const int nodes = static_cast<int>(face->GetNumberOfPoints());
+            bool there = true;
+            double sum = 0, box[6];
+            face->GetBounds(box);
+            // ∫φ of the face's nodes, relative to its measure, and twice that measure of a triangle.
+            static const std::map<int, std::vector<double>> weights{{2, {0.5, 0.5}}, {3, {1 / 6., 1 / 6., 4 / 6.}}, {4, {.25, .25, .25, .25}},
+                {6, {0, 0, 0, 1 / 3., 1 / 3., 1 / 3.}}, {9, {1 / 36., 1 / 36., 1 / 36., 1 / 36., 1 / 9., 1 / 9., 1 / 9., 1 / 9., 4 / 9.}}};
+            const bool triangle = dim == 3 && (nodes == 3 || nodes == 6);
+            for (int k = 0; k < nodes; ++k) {
+              there = there && std::abs(face->GetPoints()->GetPoint(k)[1]) < 1e-12;
+              const double weight = dim == 3 && nodes == 3 ? 1 / 3. : weights.at(nodes)[static_cast<std::size_t>(k)];
+              sum += weight * pressure->GetTuple1(face->GetPointId(k));
+            }
+            const double measure = (box[1] - box[0]) * (dim == 3 ? (box[5] - box[4]) * (triangle ? 0.5 : 1) : 1);
+            const int body = static_cast<int>(grid->GetCellData()->GetArray("body")->GetTuple1(c)) - 1;
+            if (there) force[body] += measure * sum;
+            for (int k = 0; there && k < nodes; ++k) {
+              CHECK(status->GetTuple1(face->GetPointId(k)) >= 0);
+              if (pressure->GetTuple1(face->GetPointId(k)) > 0) CHECK(status->GetTuple1(face->GetPointId(k)) == 1);
+            }
+          }
+        CAPTURE(std::to_string(static_cast<int>(family)) + (dim == 2 ? " plane" : " space") + (rigid ? " rigid" : " matching"));
+        for (int body = 0; body < (rigid ? 1 : 2); ++body) CHECK(force[body] == doctest::Approx(std::abs(result.force[1])).epsilon(1e-10));
+      }
 }
 
 TEST_CASE("a file that cannot be written leaves nothing, and says why") {

@@ -10,6 +10,7 @@
 #include <map>
 
 #include "../support/file.hpp"
+#include "base/error.hpp"
 #include "meshfile/assemble.hpp"
 
 using namespace dotyk;
@@ -105,7 +106,7 @@ TEST_CASE("a file with another number of nodes or elements than it says is refus
 
 TEST_CASE("what makes no mesh is refused where it stands") {
   CHECK(has(refusal(square("", {"2 2 1 0 1 2 5"})), "f.msh, line 13: node 5 of an element is not there"));
-  CHECK(has(refusal(square("", {"34 2 1 0 1 2 3"})), "there is no type 34 of elements"));
+  CHECK(has(refusal(square("", {"34 2 1 0 1 2 3"})), "elements of type 34 are not read"));
   CHECK(has(refusal(square("", {"2 2 1 0 1 2 x"})), "line 13: 'x' where a node of an element should be"));
   CHECK(has(refusal(square("$Periodic\n1\n", {"2 2 1 0 1 2 3"})), "section '$Periodic' does not end"));
   CHECK(has(refusal(square("$PhysicalNames\n1\n1 11 bottom\n$EndPhysicalNames\n", {})), "a name in double quotes is expected"));

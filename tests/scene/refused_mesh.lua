@@ -60,6 +60,20 @@ refused(body(strip:keep(function(x, y) return (x < 1.5) == (y < 0.5) end)), "2 p
 refused(body(strip:keep(function(x, y) return math.floor(4 * x) % 2 == 0 and y < 0.25 end)), "is in 6 pieces", "1 cell around (0.125, 0.125), ", " and 2 more; ")
 local beam <const> = dotyk.mesh.box{ from = {0,0,0}, to = {2,2,1}, cells = {2,2,1} }
 refused(body(beam:keep(function(x, y) return (x < 1) == (y < 1) end)), "2 pieces that share no face: 6 cells around (0.5, 0.5, 0.5), 6 cells around (1.5, 1.5, 0.5)")
+
+-- Cells that lie side by side, each with points of its own: they are to share them.
+local lines <const> = { "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n12" }
+for c = 0, 2 do
+  for k, x in ipairs{ c, c + 1, c + 1, c } do lines[#lines + 1] = ("%d %d %d 0"):format(4 * c + k, x, k // 3) end
+end
+lines[#lines + 1] = "$EndNodes\n$Elements\n3"
+for c = 0, 2 do lines[#lines + 1] = ("%d 3 2 0 0 %d %d %d %d"):format(c, 4 * c + 1, 4 * c + 2, 4 * c + 3, 4 * c + 4) end
+local f <const> = assert(io.open("apart.msh", "w"))
+f:write(table.concat(lines, "\n"), "\n$EndElements\n")
+f:close()
+refused(body(dotyk.mesh.load "apart.msh"), "the mesh of 'frame' is in 3 pieces that share no edge: ",
+        "; 4 of its 12 nodes lie where another one does: cells that hang together share nodes, so merge them in the program that made the mesh")
+os.remove "apart.msh"
 -- What is left of a body with a hole is one; and so is each piece alone.
 body(strip:keep(function(x, y) return math.abs(x - 1.5) > 0.5 or math.abs(y - 0.5) > 0.25 end))()
 body(beam:keep(function(x, y) return x < 1 and y < 1 end))()

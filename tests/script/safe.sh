@@ -86,7 +86,7 @@ refused "a table of contact" "write_contact: 'outside/s.csv' $out" "$solved s:wr
 refused "a picture" "render: 'below/../s.png' $out" "$solved s:render{ file = 'below/../s.png' }"
 refused "the argument by position within a pattern" "is not below" "local x = dotyk.shape; $solved s:render{ file = ('below/%03d/../../x.png'):format(1) }"
 
-# A mesh is read, and nothing that lies beside it: Gmsh takes x.msh.opt for commands.
+# A mesh is read, and nothing that lies beside it, though Gmsh takes x.msh.opt for commands.
 cat >below/x.msh <<'MSH'
 $MeshFormat
 2.2 0 8
@@ -104,7 +104,7 @@ $EndElements
 MSH
 echo 'SystemCall "touch outside/ran"; Printf("x") > "outside/written";' >below/x.msh.opt
 got=$("$dotyk" --safe below -e 'print(dotyk.mesh.load "below/x.msh".cell_count)' 2>&1)
-[[ $got == 1 || $got == *'built without Gmsh'* ]] || fail "a mesh below: $got"
+[[ $got == 1 ]] || fail "a mesh below: $got"
 [[ $(ls outside) == $'module2.lua\nsecret.txt' ]] || fail "a mesh below: something outside has changed"
 rm below/x.msh*
 
@@ -161,15 +161,23 @@ got=$(timeout 60 "$dotyk" --seconds 1 -e 'table.move({}, 1, 1 << 60, 2)' 2>&1)
 [[ $? == 1 && $got == "dotyk: the limit of processors' time is reached (--seconds)" ]] || fail "--seconds: $got"
 
 # That of the programs that read files counts, and each gets no more than what is left: a bad file of many cells, again and again.
-bad='local f = io.open("below/bad.msh", "w") f:write("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n160801\n")
-  for i = 0, 160800 do f:write(i + 1, " ", i % 401, " ", i // 401, " 0\n") end
-  f:write("$EndNodes\n$Elements\n160000\n")
-  for i = 0, 159999 do local a = i // 400 * 401 + i % 400 + 1 f:write(i + 1, " 3 2 1 1 ", a, " ", a + 401, " ", a + 402, " ", a + 900000, "\n") end
-  f:write "$EndElements\n" f:close()'
+bad='local f = io.open("below/bad.vtu", "w")
+  local function array(name, count, value)
+    f:write([[<DataArray type="]], name == "x" and "Float64" or "Int64", [[" Name="]], name, [[" NumberOfComponents="]], name == "x" and 3 or 1, [[" format="ascii">]], "\n")
+    for i = 0, count - 1 do f:write(value(i), "\n") end
+    f:write "</DataArray>"
+  end
+  f:write [[<VTKFile type="UnstructuredGrid" version="0.1"><UnstructuredGrid><Piece NumberOfPoints="160801" NumberOfCells="160000"><Points>]]
+  array("x", 160801, function(i) return ("%d %d 0"):format(i % 401, i // 401) end)
+  f:write "</Points><Cells>"
+  array("connectivity", 160000, function(i) local a = i // 400 * 401 + i % 400 return ("%d %d %d %d"):format(a, a + 401, a + 402, a + 900000) end)
+  array("offsets", 160000, function(i) return 4 * i + 4 end)
+  array("types", 160000, function() return 9 end)
+  f:write "</Cells></Piece></UnstructuredGrid></VTKFile>" f:close()'
 "$dotyk" -e "$bad"
-got=$(timeout 60 "$dotyk" --safe below --seconds 1 -e 'while true do pcall(dotyk.mesh.load, "below/bad.msh") end' 2>&1)
+got=$(timeout 60 "$dotyk" --safe below --seconds 1 -e 'while true do pcall(dotyk.mesh.load, "below/bad.vtu") end' 2>&1)
 [[ $? == 1 && $got == "dotyk: the limit of processors' time is reached (--seconds)" ]] || fail "--seconds and files: $got"
-rm below/bad.msh
+rm below/bad.vtu
 
 # The same without a word where the script is a stranger's; what Lua's library does meanwhile no count of instructions sees.
 endless() {

@@ -55,7 +55,8 @@ CellShape cell_shape(const mesh::Mesh& mesh);
 //   contact_pressure  positive in compression, 0 off the contact boundary
 //   contact_gap       after deformation, positive when open; nan where there is no contact
 //   contact_status    0 open, 1 closed, 2 stick, 3 slip; -1 where there is no contact
-// The contact arrays are left out where the scene has no contact. Of several conditions at one node (a
+// Of order 2 the contact's fields are linear (bilinear) between the corners of facets, and the arrays have their values at the
+// nodes there, too; the status is that of the corner with the greatest pressure. The contact arrays are left out where the scene has no contact. Of several conditions at one node (a
 // corner, two contacts) the one with the greatest pressure is shown, else that with the least gap.
 GridFile compose_grid(const scene::Solution& solution, const std::string& file);
 

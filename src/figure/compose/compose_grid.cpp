@@ -1,6 +1,9 @@
 // From a solution to its file for ParaView.
 #include <algorithm>
+#include <map>
+#include <unordered_map>
 
+#include "contact/matching.hpp"
 #include "figure/compose/compose.hpp"
 #include "figure/compose/compose_plate.hpp"
 
@@ -74,6 +77,47 @@ std::vector<GridArray> contact_arrays(std::size_t nodes) {
   return {{"contact_pressure", {""}, std::vector<double>(nodes, 0.0)}, {"contact_gap", {""}, std::vector<double>(nodes, NAN)}, {"contact_status", {""}, std::vector<double>(nodes, -1.0)}};
 }
 
+namespace {
+
+/// Conditions of order 2 stand at corners, and what they say is linear (bilinear) between: its values at the facets' other nodes.
+std::vector<scene::ContactNode> with_nodes_between(const Contact& contact, std::vector<scene::ContactNode> nodes) {
+  const mesh::Mesh& mesh = *contact.first.body->mesh;
+  const mesh::ElementTopology& t = mesh.topology();
+  std::map<std::pair<int, int>, int> at;  // facet and node → condition
+  for (std::size_t k = 0; t.order == 2 && k < nodes.size(); ++k)
+    for (const int f : contact.rows[k].facets) at[{f, nodes[k].node}] = static_cast<int>(k);
+  for (int f = 0; !at.empty() && f < static_cast<int>(contact.first.facets.size()); ++f)
+    for (int k = t.facet_corners; k < t.nodes_per_facet; ++k) {
+      scene::ContactNode between{.node = mesh.facet_node(contact.first.facets[f], k)};
+      double most = -INFINITY, sum = 0;
+      for (int c = 0; c < t.facet_corners; ++c) {
+        const auto row = at.find({f, mesh.facet_node(contact.first.facets[f], c)});
+        const double weight = mesh::corner_hat(t, c, k);
+        if (row == at.end() || weight == 0) continue;
+        const scene::ContactNode& corner = nodes[row->second];
+        sum += weight, between.pressure += weight * corner.pressure, between.gap += weight * corner.gap;
+        if (corner.pressure > most) most = corner.pressure, between.status = corner.status;
+      }
+      if (sum > 1 - 1e-9) nodes.push_back(between);
+    }
+  return nodes;
+}
+
+/// Of a contact whose nodes match: node of the first part → that across.
+std::unordered_map<int, int> across(const Contact& contact) {
+  std::unordered_map<int, int> node;
+  if (!contact.second.body || contact.pairing != contact::Pairing::matching) return node;
+  const scene::Part &first = contact.first, &second = contact.second;
+  if (first.body->mesh->topology().order == 1)
+    for (const contact::ContactRow& row : contact.rows) node.emplace(row.node, row.partners.front().node);
+  else
+    for (const auto& pair : contact::find_matching({*first.body->mesh, first.facets, ""}, {*second.body->mesh, second.facets, ""}).pairs)
+      node.emplace(pair.first, pair.second);
+  return node;
+}
+
+}  // namespace
+
 std::vector<GridArray> contact_arrays(const Solution& s) {
   const std::vector<std::size_t> first = first_nodes(s.scene());
   std::vector<GridArray> arrays = contact_arrays(first.back());
@@ -89,13 +133,12 @@ std::vector<GridArray> contact_arrays(const Solution& s) {
   for (const auto& contact : s.scene().contacts) {
     if (contact->kind != Contact::Kind::contact) continue;
     any = true;
-    const auto nodes = s.contact(*contact).nodes;
     const int one = s.scene().index_of(contact->first.body.get());
     const int other = s.scene().index_of(contact->second.body.get());
-    for (std::size_t k = 0; k < nodes.size(); ++k) {
-      show(first[one] + nodes[k].node, nodes[k]);
-      if (other >= 0 && contact->pairing == contact::Pairing::matching)
-        show(first[other] + contact->rows[k].partners.front().node, nodes[k]);
+    const std::unordered_map<int, int> partner = across(*contact);
+    for (const scene::ContactNode& n : with_nodes_between(*contact, s.contact(*contact).nodes)) {
+      show(first[one] + n.node, n);
+      if (const auto at = partner.find(n.node); at != partner.end()) show(first[other] + at->second, n);
     }
   }
   return any ? arrays : std::vector<GridArray>();

@@ -1,5 +1,9 @@
 #include "scene/statement/body.hpp"
 
+#include <array>
+#include <cmath>
+#include <set>
+
 #include "base/error.hpp"
 #include "base/listed.hpp"
 #include "base/text.hpp"
@@ -17,6 +21,16 @@ std::vector<elasticity::FacetSpring> Body::facet_springs() const {
 
 namespace {
 
+/// How many nodes lie at the place of one before them, but for rounding.
+int nodes_twice(const mesh::Mesh& mesh) {
+  std::set<std::array<long long, 3>> places;
+  for (int n = 0; n < mesh.node_count(); ++n) {
+    const mesh::Point x = mesh::times(1e9 / mesh.size(), mesh.point(n));
+    places.insert({std::llround(x[0]), std::llround(x[1]), std::llround(x[2])});
+  }
+  return mesh.node_count() - static_cast<int>(places.size());
+}
+
 /// Pieces hinged at nodes, or apart, have more rigid motions than a body has.
 void require_one_piece(const mesh::Mesh& mesh, const std::string& name) {
   if (mesh.one_piece()) return;
@@ -28,9 +42,12 @@ void require_one_piece(const mesh::Mesh& mesh, const std::string& name) {
     for (const int c : cells) middle = mesh::plus(middle, mesh::times(1.0 / static_cast<double>(cells.size()), mesh.cell_centre(c)));
     all.push_back(text(cells.size(), cells.size() == 1 ? " cell" : " cells", " around ", point_text(middle.data(), mesh.dimension())));
   }
-  throw InputError(text("the mesh of '", name, "' is in ", all.size(), " pieces that share no ",
-                        mesh.dimension() == 2 ? "edge" : "face", ": ", listed(all, 4),
-                        "; make each a body of its own (mesh:keep takes cells by their centres), in contact or glued"));
+  const int twice = nodes_twice(mesh);
+  const std::string merge = text("; ", twice, " of its ", mesh.node_count(), " nodes lie where another one does: cells that hang together ",
+                                 "share nodes, so merge them in the program that made the mesh (Gmsh: Coherence Mesh; ParaView: Clean to Grid)");
+  throw InputError(text("the mesh of '", name, "' is in ", all.size(), " pieces that share no ", mesh.dimension() == 2 ? "edge" : "face", ": ",
+                        listed(all, 4), twice > 0 ? merge : "", twice > 0 ? "; of pieces that are apart, " : "; ",
+                        "make each a body of its own (mesh:keep takes cells by their centres), in contact or glued"));
 }
 
 /// Throws where these cannot make a body.
