@@ -161,13 +161,13 @@ function fem.lame(E, nu, plane)
   return plane == "stress" and 2 * lambda * mu / (lambda + 2 * mu) or lambda, mu
 end
 
--- Nodal forces K u and the energy ½ uᵀKu, of u[node] = { x, y[, z] }; and of each node (2μ + λ) ∫ |∇N|², the size of K's
--- entries there.
-function fem.inner_forces(mesh, lambda, mu, u)
+-- Nodal forces K u and the energy ½ uᵀKu, of u[node] = { x, y[, z] }; and of each node (2μ + λ) ∫ |∇N|², the size
+-- of K's entries there. Simplices of order 2 are integrated as straight ones are, or by the `fine` rule.
+function fem.inner_forces(mesh, lambda, mu, u, fine)
   local d <const>, forces <const>, stiffness <const>, energy = mesh.dimension, zeros(mesh), {}, 0
   for node in ipairs(mesh.points) do stiffness[node] = 0 end
   for _, cell in ipairs(mesh.cells) do
-    for _, p in ipairs(rule(mesh, d, true)) do
+    for _, p in ipairs(rule(mesh, d, not fine)) do
       local inv, det = inverse(derivatives(cell, mesh.points, p.D, d, d))
       local H, g, trace, s, q = derivatives(cell, u, p.D, d, d), {}, 0, {}, {}
       for i = 1, d do

@@ -28,7 +28,7 @@ local function point(scene, node) return { node.x, node.y, scene.dimension == 3 
 -- bodies are thin.
 local function allowed(scene)
   local d <const>, size <const> = scene.dimension, scene.size
-  local flexible, stiff = 0, 0
+  local flexible, stiff, soft = 0, 0, math.huge
   local load, length = 0, scene.reach + (scene.curved_parts and size or 0)
   local area <const> = size ^ (d - 1) * scene.small
   local function spring(k) if k > 0 then flexible = flexible + 1 / (k * area) end end
@@ -40,6 +40,7 @@ local function allowed(scene)
     end
     flexible = flexible + (most / least) ^ 3 / (body.E * least ^ (d - 2))
     stiff = math.max(stiff, body.E * most ^ (d - 1) / least)
+    soft = math.min(soft, body.E)
     for _, given in ipairs(body.given) do if given.spring then spring(given.spring) end end
     for _, at in ipairs(body.loads) do load = load + norm(at.force) end
   end
@@ -51,7 +52,9 @@ local function allowed(scene)
     end
   end
   local force <const> = 1e3 * (load + stiff * length) / scene.small
-  return { load = load / size ^ (d - 1), force = force, stress = force / area, length = 1e3 * (length + load * flexible) }
+  local strained <const> = 1e-3 * soft * scene.reach / size -- what overlaps and prescribed displacements may make at least
+  return { load = math.max(load / size ^ (d - 1), strained), force = force, stress = force / area,
+           length = 1e3 * (length + load * flexible) }
 end
 
 local function scales(scene, contacts, supports, displacement)
@@ -141,9 +144,11 @@ local function check_contact(scene, contact, result, scale, wrong)
     if p > tol.p and gap > tol.u then wrong("pressure %.3g across a gap of %.3g at %s", p, gap, at) end
     if node.status == "open" and math.abs(p) > tol.p then wrong("open with pressure %.3g at %s", p, at) end
     if node.status ~= "open" and gap > tol.u then wrong("%s with gap %.3g at %s", node.status, gap, at) end
-    if law then check_friction(at, node, law.kind == "tresca" and law.value or law.value * math.max(p, 0), tol, wrong,
-      law.kind == "tresca" and at_corner(scene, result.nodes, node) or
-      is_held(scene, contact, node) and (contact.second or contact.first.body.disc or inclined(node.normal)))
+    if law then
+      local along <const> = scene.impossible ~= nil -- supports there prescribe slips, not distances alone
+      check_friction(at, node, law.kind == "tresca" and law.value or law.value * math.max(p, 0), tol, wrong,
+        law.kind == "tresca" and at_corner(scene, result.nodes, node) or
+        is_held(scene, contact, node) and (along or contact.second or contact.first.body.disc or inclined(node.normal)))
     elseif norm(node.shear) > tol.p then wrong("shear without friction at %s", at) end
   end
 end
