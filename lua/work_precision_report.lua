@@ -186,18 +186,11 @@ function report.series(all, tolerances)
 end
 
 -- What would fail after all the runs is said before them.
-function report.check(options)
-  if options.file and not options.file:find "[^/]%.png$" then
-    core.fail(("work_precision: cannot write %s: the file name must end in .png"):format(options.file))
-  end
-  for _, key in ipairs{ "title", "label" } do
-    if options[key] and not utf8.len(options[key]) then core.fail(("work_precision: '%s' is not valid UTF-8"):format(key)) end
-  end
-end
+function report.check(options) core.check_figure(options.file, options.title, options.label) end
 
 function report.write(all, options)
   local csv = options.csv
-  if csv == nil or csv == true then csv = options.file and options.file:gsub("%.png$", "") .. ".csv" end
+  if csv == nil or csv == true then csv = options.file and options.file:gsub("%.%w+$", "") .. ".csv" end
   local written <const> = {}
   if options.file then
     dotyk.chart{ file = options.file, title = options.title, size = options.size, slopes = options.slopes, log = "xy",

@@ -46,6 +46,9 @@ class Folder {
     if (name.empty() || !std::filesystem::is_directory(place_)) throw std::runtime_error("'" + name + "' is not a folder");
   }
 
+  /// Absolute, without links.
+  const std::filesystem::path& place() const { return place_; }
+
   /// Throws std::runtime_error naming file and folder unless the file, which need not exist, lies below the folder once its
   /// "." and ".." and every symbolic link on its way, to nowhere too, are followed.
   void require(const std::string& file) const {
@@ -56,8 +59,8 @@ class Folder {
   }
 
  private:
-  std::string name_;             // as given
-  std::filesystem::path place_;  // without links
+  std::string name_;  // as given
+  std::filesystem::path place_;
 };
 
 }  // namespace dotyk

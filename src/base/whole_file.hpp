@@ -6,6 +6,7 @@
 
 #include <cerrno>
 #include <climits>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
@@ -49,9 +50,9 @@ inline std::string place_to_write(const std::string& file) {
   return place;
 }
 
-/// While it lives, a signal that asks the program to end (SIGTERM, SIGHUP, SIGQUIT, the end of processors' time) removes
-/// this file first. One at a time: of a second one nothing is noted. Signals that are ignored, or that somebody else
-/// handles, stay as they are.
+/// While it lives, a signal that ends the program removes this file first. One at a time: of a second one nothing is
+/// noted. Signals that are ignored stay so, and those that somebody else handles, but for the ends of time, which end
+/// the program, and SIGINT: where its handler gives it back to the system (SIG_DFL), it is about to.
 class RemovedAtEnd {
  public:
   explicit RemovedAtEnd(const std::string& file) {
@@ -60,9 +61,8 @@ class RemovedAtEnd {
     mine_ = true;
     for (int k = 0; k < kCount; ++k) {
       noted_[k] = false;
-      // Of those who handle it, the limit of processors' time is the one that ends the program.
       if (sigaction(kSignals[k], nullptr, &before_[k]) != 0 || before_[k].sa_handler == SIG_IGN) continue;
-      if (before_[k].sa_handler != SIG_DFL && kSignals[k] != SIGXCPU) continue;
+      if (before_[k].sa_handler != SIG_DFL && k >= kHandled) continue;
       struct sigaction action {};
       action.sa_handler = end;
       sigfillset(&action.sa_mask);
@@ -81,19 +81,37 @@ class RemovedAtEnd {
  private:
   static void end(int signal) {
     const int reason = errno;
-    unlink(name_);
-    for (int k = 0; k < kCount; ++k)
-      if (kSignals[k] == signal) sigaction(signal, &before_[k], nullptr);
-    raise(signal);  // comes when this returns
+    int k = 0;
+    while (kSignals[k] != signal) ++k;
+    struct sigaction now = before_[k];
+    if (signal == SIGINT && now.sa_handler != SIG_DFL) {
+      now.sa_handler(signal);
+      sigaction(signal, nullptr, &now);
+    } else {
+      sigaction(signal, &before_[k], nullptr);
+      raise(signal);  // comes when this returns
+    }
+    if (now.sa_handler != end) unlink(name_);
     errno = reason;
   }
 
-  static constexpr int kSignals[] = {SIGTERM, SIGHUP, SIGQUIT, SIGXCPU}, kCount = 4;
+  static constexpr int kSignals[] = {SIGINT, SIGXCPU, SIGALRM, SIGTERM, SIGHUP, SIGQUIT}, kHandled = 3, kCount = 6;
   static inline char name_[PATH_MAX] = "";
   static inline struct sigaction before_[kCount] = {};
   static inline bool noted_[kCount] = {};
   bool mine_ = false;
 };
+
+/// Bytes that may still be written, to all files together; infinite without a limit (--files). The drawing library has
+/// one of its own, which the program passes it and reads again.
+inline double file_bytes_left = INFINITY;
+constexpr double kLeastFileBytes = 4096;  ///< that a file takes of a disk, besides those written
+
+/// Takes so many of them. Throws InputError where fewer are left.
+inline void count_file_bytes(double bytes) {
+  if (bytes > file_bytes_left) throw InputError("the limit of the bytes of all files together is reached (--files)");
+  file_bytes_left -= bytes;
+}
 
 /// A result that is written whole or not at all: beside its place first, then renamed into it. What was there stays until
 /// then. Gone if it is never finished, also where a signal ends the program. Throws InputError naming file and reason.
@@ -126,6 +144,9 @@ class PartFile {
     }
   }
   void finish() {
+    struct stat info {};
+    if (std::isfinite(file_bytes_left) && stat(part_.c_str(), &info) == 0)
+      count_file_bytes(kLeastFileBytes + static_cast<double>(info.st_size));
     const int out = out_;
     out_ = -1;
     if (close(out) != 0 || std::rename(part_.c_str(), place_.c_str()) != 0) fail(std::strerror(errno));

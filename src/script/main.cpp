@@ -17,6 +17,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <unistd.h>
@@ -25,7 +26,11 @@
 #include "multigrid/start_ranks.hpp"
 #include "script/interpreter.hpp"
 #include "script/prompt/interrupt.hpp"
+#include "script/prompt/line_reader.hpp"
 #include "script/bridge/library.hpp"
+#include "script/bridge/lua_side.hpp"
+#include "script/guard/harmless_output.hpp"
+#include "script/guard/landlock.hpp"
 #include "script/guard/manifest.hpp"
 #include "script/guard/process_limits.hpp"
 #include "script/prompt/prompt.hpp"
@@ -44,11 +49,15 @@ constexpr char usage[] =
     "  dotyk - ARGS…              run a script from standard input\n"
     "  dotyk --ranks N …          N processes for multigrid, as dotyk.ranks(N)\n"
     "  dotyk --traceback …        errors with the stack of calls (also DOTYK_TRACEBACK=1)\n"
-    "  dotyk --safe FOLDER …      a script from a stranger: files below FOLDER only, of 1 GB at most, no other\n"
-    "                             programs, no environment, text only to load; unless said otherwise at most\n"
-    "                             1e9 instructions, 600 s of processors and half of the machine's memory\n"
+    "  dotyk --safe FOLDER …      a script from a stranger: files below FOLDER only, which the kernel sees to as well\n"
+    "                             (Landlock), of 1 GB at most; no other programs, no environment, text only to load;\n"
+    "                             control characters printed as \\xHH; unless said otherwise at most 1e9 instructions,\n"
+    "                             600 s of processors, 3600 s (not at the prompt), half of the machine's memory and\n"
+    "                             4 GB in all files together\n"
     "  dotyk --instructions N …   at most N instructions of Lua (what dotyk computes meanwhile counts for none)\n"
     "  dotyk --seconds N …        at most N seconds of processors' time, whatever runs (mpirun: rank 0's)\n"
+    "  dotyk --clock N …          at most N seconds from the start, whether it computes or waits\n"
+    "  dotyk --files SIZE …       at most so many bytes written to all files together: 500M, 2G\n"
     "  dotyk --memory SIZE …      at most this address space: 500M, 2G (mpirun: that of rank 0)\n"
     "  dotyk --manifest …         beside every figure and result FILE, FILE.manifest: script and its hash,\n"
     "                             arguments, method, version, machine, date, seconds\n"
@@ -84,22 +93,32 @@ double read_limit(const std::string& word, bool letters) {
   return whole && value >= 1 && value <= 1e18 ? value : 0;
 }
 
-// --safe, --instructions, --seconds, --memory, --ranks and the word after them; returns an exit status where they are wrong.
+// The option among those with a number after them that sets a limit; null: none of them.
+std::optional<double>* limit_of(const std::string& option, Command& command) {
+  auto& limits = command.limits;
+  for (const auto& [name, limit] :
+       {std::pair{"--instructions", &command.instructions}, {"--seconds", &limits.seconds}, {"--clock", &limits.clock},
+        {"--memory", &limits.memory}, {"--files", &limits.files}})
+    if (option == name) return limit;
+  return nullptr;
+}
+
+// --safe, --ranks or one of limit_of() and the word after it; returns an exit status where they are wrong.
 std::optional<int> read_limits(const std::string& option, const std::string* next, Command& command) {
-  const bool memory = option == "--memory";
+  const bool size = option == "--memory" || option == "--files";
   if (!next) return misuse(option + (option == "--safe" ? " needs a folder" : " needs a number"));
   if (option == "--safe") {
     command.safe = *next;
     return std::nullopt;
   }
-  const double value = read_limit(*next, memory);
-  if (value == 0) return misuse(option + " needs a number of at least 1" + (memory ? ", as 500M or 2G" : "") + ", got '" + *next + "'");
+  const double value = read_limit(*next, size);
+  if (value == 0) return misuse(option + " needs a number of at least 1" + (size ? ", as 500M or 2G" : "") + ", got '" + *next + "'");
   if (option == "--ranks") {
     if (value != std::floor(value) || value > 4096) return misuse("--ranks needs a whole number of at most 4096, got '" + *next + "'");
     command.ranks = static_cast<int>(value);
     return std::nullopt;
   }
-  (memory ? command.limits.memory : option == "--seconds" ? command.limits.seconds : command.instructions) = value;
+  *limit_of(option, command) = value;
   return std::nullopt;
 }
 
@@ -118,7 +137,7 @@ std::optional<int> read_command(const std::vector<std::string>& words, Command& 
     } else if (word == "--version" || word == "-v") {
       std::printf("dotyk %s\n", DOTYK_VERSION);
       return 0;
-    } else if (word == "--safe" || word == "--instructions" || word == "--seconds" || word == "--memory" || word == "--ranks") {
+    } else if (word == "--safe" || word == "--ranks" || limit_of(word, command)) {
       const auto status = read_limits(word, i + 1 < words.size() ? &words[i + 1] : nullptr, command);
       if (status) return status;
       ++i;
@@ -164,17 +183,32 @@ std::string script_in(std::string text) {
   return text;
 }
 
+// What dotyk reads and runs of its own: the program, its libraries, its Lua.
+std::vector<std::string> own_folders() {
+  const std::string here = std::filesystem::read_symlink("/proc/self/exe").parent_path().string();
+  return {here, here + "/../lib/dotyk", here + "/../" DOTYK_LIBDIR "/dotyk", DOTYK_BUILD, dotyk::script::lua_folder()};
+}
+
+// The last step before a stranger's script; the prompt's history is open by then, wherever it lies.
+void keep_to(const std::string& folder, bool prompt) {
+  if (prompt && isatty(STDIN_FILENO) && isatty(STDOUT_FILENO)) dotyk::script::load_history();
+  if (!dotyk::script::confine(dotyk::Folder(folder), own_folders()))
+    std::fputs("dotyk: this kernel has no Landlock: that files stay below the folder is up to dotyk alone\n", stderr);
+}
+
 int run(const Command& command) {
   if (command.file && *command.file != "-" && access(command.file->c_str(), R_OK) != 0) {
     std::fprintf(stderr, "dotyk: cannot open %s: %s\n", command.file->c_str(), std::strerror(errno));
     return 2;
   }
+  if (command.safe) dotyk::script::make_output_harmless();
   dotyk::script::Interpreter interpreter;
   dotyk::script::set_limits(command.limits);
   if (command.ranks > 1) dotyk::multigrid::start_ranks(command.ranks);  // which inherit the limits
   interpreter.trace(command.traceback);
   interpreter.set_arguments(command.file.value_or(command.code ? "-e" : "dotyk"), command.arguments);
   dotyk::script::watch_interrupts(interpreter.state());
+  if (command.safe || command.limits.files) dotyk::script::watch_files(interpreter.state());
   if (command.safe) dotyk::script::make_safe(interpreter.state(), dotyk::Folder(*command.safe));
   else if (command.instructions) dotyk::script::close_debug(interpreter.state(), "--instructions");
   if (command.safe || command.instructions)
@@ -186,6 +220,7 @@ int run(const Command& command) {
   if (command.manifest) interpreter.library().manifest = std::make_shared<dotyk::script::Manifest>(name, text, command.arguments);
 
   if (command.prompt) interpreter.keep_locals();
+  if (command.safe) keep_to(*command.safe, command.prompt);
   std::optional<std::string> error;
   if (command.code) error = interpreter.run_text(*text, "-e");
   if (command.file) error = interpreter.run_text(script_in(*text), file == "-" ? "stdin" : "@" + file);
@@ -214,7 +249,7 @@ int main(int count, char** words) {
     dotyk::multigrid::take_word_worker();
     Command command;
     const auto status = read_command({words + 1, words + count}, command);
-    if (command.safe) command.limits.fill_in_for_safe();
+    if (command.safe) command.limits.fill_in_for_safe(command.prompt);
     if (!status) dotyk::script::leave_threads_if_tight(command.limits, words);
     if (place.ranks > 0) dotyk::multigrid::meet_ranks();
     return after_printing(status ? *status : run(command));

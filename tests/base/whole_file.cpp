@@ -107,6 +107,36 @@ TEST_CASE("a file that is begun is gone where a signal ends the program, and wha
     CHECK(test::bytes_of("a") == "old");
     CHECK(scratch.files() == 2);
   }
+  // Handlers: one that goes on, and one that gives the signal back and raises it, as of a second Ctrl-C; one that ends here.
+  const auto goes_on = [](int) {};
+  const auto gives_back = [](int signal) {
+    std::signal(signal, SIG_DFL);
+    raise(signal);
+  };
+  const auto ends = [](int) { _exit(3); };
+  const auto left_by = [&](int signal, void (*handler)(int)) {
+    const pid_t child = fork();
+    if (child == 0) {
+      std::signal(signal, handler);
+      PartFile part("a");
+      raise(signal);
+      part.write("new", 3);
+      part.finish();
+      _exit(7);
+    }
+    int status = 0;
+    waitpid(child, &status, 0);
+    CHECK(scratch.files() == 2);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+  };
+  CHECK(left_by(SIGINT, SIG_DFL) == -SIGINT);
+  CHECK(left_by(SIGINT, gives_back) == -SIGINT);
+  CHECK(left_by(SIGXCPU, ends) == 3);
+  CHECK(left_by(SIGALRM, ends) == 3);
+  CHECK(test::bytes_of("a") == "old");
+  CHECK(left_by(SIGINT, goes_on) == 7);
+  CHECK(test::bytes_of("a") == "new");
+  write_whole_file("a", "old");
   // Those who ignore a signal (nohup) go on.
   const auto before = std::signal(SIGHUP, SIG_IGN);
   {

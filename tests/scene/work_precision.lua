@@ -203,7 +203,16 @@ local function never() error "a run" end
 for key, bad in pairs{ file = "none/a.png", csv = "none/a.csv", title = "\xff", label = "\xff" } do
   refused(function() dotyk.work_precision{ scene = never, methods = pdas, [key] = bad } end, key == "file" and "folder none" or key == "csv" and "folder none" or key .. "' is not valid UTF-8")
 end
-refused(function() dotyk.work_precision{ scene = never, methods = pdas, file = "a.svg" } end, "work_precision: cannot write a.svg: the file name must end in .png")
+refused(function() dotyk.work_precision{ scene = never, methods = pdas, file = "a.gif" } end,
+  "work_precision: cannot write a.gif: the file name must end in .png, .pdf or .svg")
+refused(function() dotyk.work_precision{ scene = never, methods = pdas, title = ("x"):rep(1001) } end, "'title' has 1001 bytes")
+-- The figure is what its name says; the rows lie beside it.
+for ending, first in pairs{ pdf = "%PDF", svg = "<svg" } do
+  dotyk.work_precision{ scene = cantilever, methods = pdas, levels = 2, repeats = 1, file = "figure." .. ending }
+  local file <close> = assert(io.open("figure." .. ending))
+  check.that(file:read(200):find(first, 1, true), ending)
+  check.that(os.remove "figure.csv")
+end
 
 -- 6. The same method with another tol, and a limit on seconds.
 do

@@ -118,10 +118,18 @@ expect "Ctrl-C in a loop of solves" 'loop 1: 11' "$block" 'scene = dotyk.scene{ 
   'function slowly() local t = os.clock() while os.clock() < t + 1.2 do end end slow = dotyk.solver.pdas{ on_iteration = slowly }\n' \
   "$solves" '\003' '' '' '' '' 'print(("loop %d: %d"):format(b - 1, s.unknowns - 4))\n' &
 (
+  mkdir "$folder/history" # its owner alone reads it, also one that others could
+  umask 022
   expect "history" 'ninety-9' 'print("ninety" .. "-" .. 9)\n'
+  [[ $(stat -c %a "$HOME/.dotyk_history") == 600 ]] || echo "the history's mode" >>"$folder/failed"
+  chmod 644 "$HOME/.dotyk_history"
   expect "history" 'ninety-9' 'print("nin\033[A\n'
   expect "history" '3-3' 'for i = 3, 3 do\n' 'print(i .. "-" .. i) end\n'
   expect "history" '3-3' '\022i = 3\r'
+  [[ $(stat -c %a "$HOME/.dotyk_history") == 600 ]] || echo "the history's mode, of an old one" >>"$folder/failed"
+  dotyk="$dotyk --safe $folder" expect "history" 'ninety-9' 'print("nin\033[A\n'
+  dotyk="$dotyk --safe $folder" expect "history" 'safe-7' 'print("safe" .. "-" .. 7)\n'
+  expect "history" 'safe-7' 'print("saf\033[A\n'
 ) &
 wait
 

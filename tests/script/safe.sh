@@ -179,6 +179,41 @@ got=$(timeout 60 "$dotyk" --safe below --seconds 1 -e 'while true do pcall(dotyk
 [[ $? == 1 && $got == "dotyk: the limit of processors' time is reached (--seconds)" ]] || fail "--seconds and files: $got"
 rm below/bad.vtu
 
+# Files all together, whatever writes them; what is removed counts, and each takes a block of the disk.
+many() {
+  local got
+  got=$(timeout 60 "$dotyk" --safe below --files 200K -e "$2" 2>&1)
+  [[ $? == 1 && $got == "dotyk: -e:1: $3: the limit of the bytes of all files together is reached (--files)" ]] || fail "files: $1: $got"
+  [[ $(du -sb below | cut -f 1) -lt 2000000 ]] || fail "files: $1: $(ls -l below)"
+}
+many "one that grows" 'local f = io.open("below/many", "w") while true do f:write(("x"):rep(1000), 1, 2.5) end' write
+many "io.write" 'io.output "below/many" while true do io.write(("x"):rep(1000)) end' write
+many "written and removed" 'while true do local f <close> = io.open("below/many", "w") f:write(("x"):rep(90000)) os.remove "below/many" end' write
+many "empty ones" 'for i = 1, 1e4 do io.open("below/many" .. i % 9, "a"):close() end' open
+many "figures" 'for i = 1, 1e3 do dotyk.chart{ file = "below/many.png", series = { { x = {0,1}, y = {0,1} } } } end' chart
+many "solutions in pieces" "$solved for i = 1, 1e3 do s:write 'below/many.pvtu' end" write
+got=$("$dotyk" --safe below --files 200K -e 'local n = 0 for i = 1, 500 do io.write(("x"):rep(1000)) n = n + 1 end io.stderr:write(n)' 2>&1 >/dev/null)
+[[ $got == 500 ]] || fail "files: standard output counts: $got"
+[[ $(ls below) != *part-* ]] || fail "files: $(ls below)"
+rm -f below/many*
+
+# The clock: also of what waits.
+got=$(sleep 60 | timeout 30 "$dotyk" --safe below --clock 1 -e 'io.read()' 2>&1)
+[[ $? == 1 && $got == 'dotyk: the limit of time is reached (--clock)' ]] || fail "--clock: $got"
+
+# Nothing that a terminal would obey is printed, by whomever; letters are.
+harmless() {
+  local got
+  got=$("$dotyk" --safe below -e "$2" 2>&1)
+  [[ $got == "$3" ]] || fail "printed by $1: $(od -c <<<"$got" | head -5)"
+}
+harmless print 'print("\27[31mé – \u{1F600}\tx\r", "\u{9b}1m\x9b\xc3")' '\x1b[31mé – 😀	x\x0d	\xc2\x9b1m\x9b\xc3'
+harmless io.write 'io.write("\xc2") io.write("\x9b1m\0\127") io.write("\xc3") io.stdout:write("\xa9\n")' '\xc2\x9b1m\x00\x7fé'
+harmless io.stderr 'io.stderr:write "\27]0;title\7\n"' '\x1b]0;title\x07'
+harmless "an error" 'error("\27[2J", 0)' 'dotyk: \x1b[2J'
+harmless warn 'warn "@on" warn "\27c"' 'Lua warning: \x1bc'
+harmless "a message of dotyk" 'dotyk.material{ ["\27c"] = 1 }' "dotyk: -e:1: material: unknown key '\x1bc', expected 'E', 'nu', 'plane', 'stiffness' or 'density'"
+
 # The same without a word where the script is a stranger's; what Lua's library does meanwhile no count of instructions sees.
 endless() {
   local got
@@ -189,13 +224,15 @@ endless "a pattern" '(("a"):rep(40) .. "b"):find(("a?"):rep(40) .. ("a"):rep(40)
 endless "a pattern of balances" 'for i = 1, 1e6 do (("("):rep(3e5)):find "%b()" end'
 endless "a substitution" '(("a"):rep(3e5)):gsub(".-b", "")'
 endless "a long string" 'local s = {} for i = 1, 1e6 do s[i] = ("x"):rep(1 << 30) end'
-"$dotyk" --safe below -e 'while true do end' 2>/dev/null &
+"$dotyk" --safe below -e 'while true do end' 2>err.txt &
 await_handler $!
 limits=$(</proc/$!/limits)
+status=$(</proc/$!/status)
 kill -9 $!
 wait $! 2>/dev/null
-[[ $limits =~ 'Max cpu time'\ +600\  && $limits =~ 'Max file size'\ +1000000000\  ]] || fail "limits of --safe: $limits"
-[[ $limits =~ 'Max address space'\ +[0-9]+\  ]] || "$dotyk" --memory 2G -e '' 2>&1 | grep -q . || fail "memory of --safe: $limits"
+[[ $limits =~ 'Max cpu time'\ +600\ +605\  && $limits =~ 'Max file size'\ +1000000000\ +1000000000\  && $limits =~ 'Max core file size'\ +0\ +0\  ]] || fail "limits of --safe: $limits"
+[[ $status == *$'NoNewPrivs:\t1'* || $(<err.txt) == *'no Landlock'* ]] || fail "Landlock: $status"
+[[ $limits =~ 'Max address space'\ +([0-9]+)\ +([0-9]+)\  && ${BASH_REMATCH[1]} == "${BASH_REMATCH[2]}" ]] || "$dotyk" --memory 2G -e '' 2>&1 | grep -q . || fail "memory of --safe: $limits"
 
 # Memory.
 if [[ $("$dotyk" --memory 2G -e 'print(1)' 2>&1) == 1 ]]; then # a sanitized program takes more for itself

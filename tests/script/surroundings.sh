@@ -90,13 +90,14 @@ LUA
 mkdir one two now
 "$dotyk" writing.lua 1 one && "$dotyk" writing.lua 2 two || fail "what is written"
 cp one/* now
-for signal in KILL KILL KILL KILL KILL KILL TERM TERM TERM TERM TERM HUP HUP HUP; do
+for signal in KILL KILL KILL KILL KILL KILL TERM TERM TERM TERM TERM HUP HUP HUP INT INT INT INT; do
   mkfifo ready
   "$dotyk" writing.lua >ready &
   writing=$!
   read -r _ <ready
   sleep "0.$((RANDOM % 5 + 1))$((RANDOM % 10))"
   kill -$signal $writing
+  if [[ $signal == INT ]]; then kill -INT $writing 2>/dev/null; fi # the second Ctrl-C ends it, whatever it does
   wait $writing 2>/dev/null
   if [[ $signal == KILL ]]; then rm -f now/*.part-*; fi
   [[ $(ls -A now) == $'s.csv\ns.png\ns.vtu' ]] || fail "SIG$signal: $(ls -A now)"

@@ -6,13 +6,14 @@
 #include <string>
 
 #include "base/open_library.hpp"
+#include "base/whole_file.hpp"
 #include "figure/door/drawing.hpp"
 
 namespace dotyk::figure {
 
 namespace {
 
-using Door = int (*)(const Drawing*, char* error, std::size_t size);
+using Door = int (*)(const Drawing*, double* file_bytes_left, char* error, std::size_t size);
 
 void* open() {
   SharedLibrary drawing{"libdotyk_figure_vtk.so", "the drawing library", 280e6, DOTYK_FIGURE_LIBDIR, ""};  // measured: 250 MB
@@ -35,7 +36,7 @@ void pass(const Picture& picture) {
   check(picture);
   const Drawing drawing = &picture;
   char error[1024] = "";
-  if (door()(&drawing, error, sizeof error) != 0) throw std::runtime_error(error);
+  if (door()(&drawing, &file_bytes_left, error, sizeof error) != 0) throw std::runtime_error(error);
 }
 
 template <class Picture>

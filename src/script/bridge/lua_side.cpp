@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "base/whole_file.hpp"
+#include "figure/door/checks.hpp"
 #include "script/bridge/library.hpp"
 #include "script/prompt/interrupt.hpp"
 #include "script/guard/manifest.hpp"
@@ -68,6 +69,18 @@ int write(lua_State* L) {
     if (const auto& folder = Library::of(L).folder) folder->require(file);
     write_whole_file(file, luaL_checkstring(L, 2));
     if (const auto& manifest = Library::of(L).manifest) manifest->write(L, file, "dotyk.work_precision", 0);
+    return 0;
+  });
+}
+
+int check_figure(lua_State* L) {
+  return guarded(L, "work_precision", [L] {
+    const auto text = [L](int argument) { return std::string(luaL_optstring(L, argument, "")); };
+    figure::Sheet sheet;
+    sheet.file = text(1);
+    if (!lua_isnoneornil(L, 1)) figure::check_sheet(sheet);
+    figure::check_text("'title'", text(2));
+    figure::check_text("'label'", text(3));
     return 0;
   });
 }
@@ -191,7 +204,7 @@ void load_lua_side(lua_State* L) {
   lua_newtable(L);
   static const luaL_Reg functions[] = {
       {"fail", fail},         {"terminal", terminal},   {"progress", progress}, {"clock", clock},
-      {"write", write},       {"type_name", type_name}, {"written", written},   {"signature", signature},
+      {"write", write}, {"check_figure", check_figure},       {"type_name", type_name}, {"written", written},   {"signature", signature},
       {"read_own", read_own}, {"unless_interrupted", unless_interrupted},       {nullptr, nullptr}};
   luaL_setfuncs(L, functions, 0);
   lua_getglobal(L, "debug");

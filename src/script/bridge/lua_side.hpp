@@ -5,6 +5,7 @@
 //   terminal(name)  is "stdin", "stdout" or "stderr" a terminal
 //   progress(text)  shows the text on the progress line; progress() takes it away
 //   write(f, text)  writes a file whole or not at all
+//   check_figure(file, title, label)  raises what drawing would, but for a call of dotyk.work_precision; all may be nil
 //   clock()         seconds, of a clock that never jumps
 //   unless_interrupted(f, kept)  calls f(); true where it returns, false where Ctrl-C at the prompt ended it and kept()
 //                   says what is left of it to look at; nil from kept() and any other error go on

@@ -2,6 +2,7 @@
 
 #include <malloc.h>
 #include <sys/resource.h>
+#include <sys/time.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -10,10 +11,12 @@
 #include <cstdlib>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 #include "base/memory.hpp"
 #include "base/parallel.hpp"
 #include "base/text.hpp"
+#include "base/whole_file.hpp"
 
 namespace dotyk::script {
 namespace {
@@ -21,24 +24,29 @@ namespace {
 constexpr double bytes_of_a_thread = 150e6;  // OpenBLAS's buffer, and a stack
 constexpr double bytes_to_begin = 8e6;       // of a script's own, above what dotyk takes before it
 
-void time_is_up(int) {
-  constexpr char message[] = "dotyk: the limit of processors' time is reached (--seconds)\n";
-  const auto written = ::write(STDERR_FILENO, message, sizeof message - 1);
+void time_is_up(int signal) {
+  const std::string_view message = signal == SIGXCPU ? "dotyk: the limit of processors' time is reached (--seconds)\n"
+                                                     : "dotyk: the limit of time is reached (--clock)\n";
+  const auto written = ::write(STDERR_FILENO, message.data(), message.size());
   _exit(written > 0 ? 1 : 3);
 }
 
-void limit(int resource, double value) {
+// Nobody can raise it again. `beyond` it the system ends the program without a word.
+void limit(int resource, double value, double beyond = 0) {
   rlimit limits{};
   getrlimit(resource, &limits);
   limits.rlim_cur = std::min(static_cast<rlim_t>(value), limits.rlim_max);
+  limits.rlim_max = std::min(static_cast<rlim_t>(value + beyond), limits.rlim_max);
   setrlimit(resource, &limits);
 }
 
 }  // namespace
 
-void ProcessLimits::fill_in_for_safe() {
+void ProcessLimits::fill_in_for_safe(bool prompt) {
   if (!seconds) seconds = 600;
+  if (!clock && !prompt) clock = 3600;
   if (!file) file = 1e9;
+  if (!files) files = 4e9;
 #ifndef __SANITIZE_ADDRESS__  // which takes all of the address space
   if (!memory) memory = std::max(2e9, 0.5 * static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE)));
 #endif
@@ -58,7 +66,11 @@ void leave_threads_if_tight(const ProcessLimits& limits, char** words) {
 
 void set_limits(const ProcessLimits& limits) {
   std::signal(SIGXFSZ, SIG_IGN);  // of ulimit -f, too
-  if (limits.file) limit(RLIMIT_FSIZE, *limits.file);
+  file_bytes_left = limits.files.value_or(INFINITY);
+  if (limits.file || limits.files) {
+    limit(RLIMIT_FSIZE, std::min(limits.file.value_or(INFINITY), file_bytes_left));
+    limit(RLIMIT_CORE, 0);
+  }
   if (limits.memory) {
     const double least = address_space_taken() + bytes_to_begin;
     if (*limits.memory < least)
@@ -70,9 +82,12 @@ void set_limits(const ProcessLimits& limits) {
     mallopt(M_MMAP_THRESHOLD, 1 << 22), mallopt(M_TRIM_THRESHOLD, 1 << 22);  // a freed array gives its address space back
   }
   memory_limit();  // as it is now
-  if (!limits.seconds) return;
-  std::signal(SIGXCPU, time_is_up);
-  limit(RLIMIT_CPU, std::ceil(*limits.seconds));
+  for (const int signal : {SIGXCPU, SIGALRM}) std::signal(signal, time_is_up);
+  if (limits.seconds) limit(RLIMIT_CPU, std::ceil(*limits.seconds), 5);
+  if (!limits.clock) return;
+  constexpr double longest = 1e8;  // three years; more is more than the system's timer takes
+  const itimerval timer{{0, 0}, {static_cast<time_t>(std::ceil(std::min(*limits.clock, longest))), 0}};
+  setitimer(ITIMER_REAL, &timer, nullptr);
 }
 
 }  // namespace dotyk::script

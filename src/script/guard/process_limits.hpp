@@ -4,13 +4,14 @@
 
 namespace dotyk::script {
 
-// Bytes, and seconds of processors' time, that of the programs that read files included (reader/process.cpp); absent:
-// no limit.
+// Seconds of processors' time, that of the programs that read files included (reader/process.cpp), and of the clock;
+// bytes of memory, of one file, and of all files together, the removed ones too. Absent: no limit.
 struct ProcessLimits {
-  std::optional<double> seconds, memory, file;
+  std::optional<double> seconds, clock, memory, file, files;
 
-  // What is absent takes the place of --safe's own: 600 s, half of the machine's memory (2 GB at least), 1 GB a file.
-  void fill_in_for_safe();
+  // What is absent takes the place of --safe's own: 600 s, half of the machine's memory (2 GB at least), 1 GB a file,
+  // 4 GB of files; an hour of the clock, but no limit of it at the prompt.
+  void fill_in_for_safe(bool prompt);
 };
 
 // OpenBLAS starts its threads before main, each of which asks for memory again and again until it gets it. Where the
@@ -18,8 +19,10 @@ struct ProcessLimits {
 // does not return. `words`: as main was given them.
 void leave_threads_if_tight(const ProcessLimits& limits, char** words);
 
-// From here on. A file beyond its limit is an error where it is written; the end of the time ends the program, status 1,
-// with a line that says so. Throws std::runtime_error where the memory is less than what is taken already.
+// From here on, and for the programs that this one starts; none of them can raise a limit again. A file beyond its
+// limit is an error where it is written; the end of the time ends the program, status 1, with a line that says so. Of
+// all files together dotyk keeps count (base/whole_file.hpp; of Lua's, watch_files in safe.hpp), not the system.
+// Throws std::runtime_error where the memory is less than what is taken already.
 void set_limits(const ProcessLimits& limits);
 
 }  // namespace dotyk::script

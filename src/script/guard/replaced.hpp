@@ -12,14 +12,18 @@ struct Replacement {
   lua_CFunction function;
 };
 
-// What each was is its function's upvalue 1, its name upvalue 2.
+// That of the table on top of the stack. What it was is the function's upvalue 1, its name upvalue 2. Once for each field.
+inline void replace_field(lua_State* L, const char* name, lua_CFunction function) {
+  lua_getfield(L, -1, name);
+  lua_pushstring(L, name);
+  lua_pushcclosure(L, function, 2);
+  lua_setfield(L, -2, name);
+}
+
 inline void replace(lua_State* L, std::initializer_list<Replacement> all) {
   for (const auto& [library, name, function] : all) {
     lua_getglobal(L, library);
-    lua_getfield(L, -1, name);
-    lua_pushstring(L, name);
-    lua_pushcclosure(L, function, 2);
-    lua_setfield(L, -2, name);
+    replace_field(L, name, function);
     lua_pop(L, 1);
   }
 }

@@ -1,9 +1,9 @@
 #include "script/guard/safe.hpp"
 
-#include <unistd.h>
+#include <cstdio>
+#include <cstring>
 
-#include <stdexcept>
-
+#include "base/whole_file.hpp"
 #include "script/bridge/position.hpp"
 #include "script/bridge/library.hpp"
 #include "script/bridge/lua.hpp"
@@ -11,6 +11,38 @@
 
 namespace dotyk::script {
 namespace {
+
+// Of the bytes of all files together.
+void count_bytes(lua_State* L, double bytes) {
+  guarded(L, lua_tostring(L, lua_upvalueindex(2)), [bytes] {
+    count_file_bytes(bytes);
+    return 0;
+  });
+}
+
+// file:write and io.write.
+int write_counted(lua_State* L) {
+  const auto* file = static_cast<luaL_Stream*>(luaL_testudata(L, 1, LUA_FILEHANDLE));
+  const int first = file ? 2 : 1, last = lua_gettop(L);
+  lua_getfield(L, LUA_REGISTRYINDEX, "_IO_output");
+  if (!file) file = static_cast<luaL_Stream*>(luaL_testudata(L, -1, LUA_FILEHANDLE));
+  lua_pop(L, 1);
+  double bytes = 0;
+  constexpr double most_of_a_number = 32;
+  for (int k = first; k <= last; ++k)
+    bytes += lua_type(L, k) == LUA_TSTRING ? static_cast<double>(lua_rawlen(L, k)) : most_of_a_number;
+  if (!file || (file->f != stdout && file->f != stderr)) count_bytes(L, bytes);
+  return original(L);
+}
+
+// io.open and io.output, which may make a file.
+int open_file(lua_State* L) {
+  if (!lua_isstring(L, 1)) return original(L);
+  require_below(L, 1);
+  const bool output = std::strcmp(lua_tostring(L, lua_upvalueindex(2)), "output") == 0;
+  if (std::strpbrk(output ? "w" : luaL_optstring(L, 2, "r"), "wa+")) count_bytes(L, kLeastFileBytes);
+  return original(L);
+}
 
 // A function whose first argument names a file, or two of which do. Without one it takes a default (io.input()).
 int with_file(lua_State* L) {
@@ -78,10 +110,18 @@ void close_debug(lua_State* L, const char* option) {
   lua_pop(L, 2);
 }
 
+void watch_files(lua_State* L) {
+  replace(L, {{"io", "open", open_file}, {"io", "output", open_file}, {"io", "write", write_counted},
+              {"io", "lines", with_file}, {"io", "input", with_file}, {"os", "remove", with_file}, {"os", "rename", with_two_files}});
+  luaL_getmetatable(L, LUA_FILEHANDLE);
+  lua_getfield(L, -1, "__index");
+  replace_field(L, "write", write_counted);
+  lua_pop(L, 2);
+}
+
 void make_safe(lua_State* L, const Folder& folder) {
   Library::of(L).folder = folder;
-  replace(L, {{"io", "open", with_file}, {"io", "lines", with_file}, {"io", "input", with_file}, {"io", "output", with_file},
-              {"os", "remove", with_file}, {"os", "rename", with_two_files}, {"os", "getenv", no_variable}});
+  replace(L, {{"os", "getenv", no_variable}});
   for (const char* name : {"popen", "tmpfile"}) take_away(L, "io", name);
   for (const char* name : {"execute", "tmpname"}) take_away(L, "os", name);
   for (const char* name : {"loadlib", "searchpath"}) take_away(L, "package", name);

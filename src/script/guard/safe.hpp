@@ -8,7 +8,11 @@ struct lua_State;
 
 namespace dotyk::script {
 
-// Before the script runs, after everything is loaded. From then on, below the folder only:
+// Before the script runs: Lua's functions of files look at the folder of make_safe, and count for the limit of all files'
+// bytes (base/whole_file.hpp). What goes to standard output does not count.
+void watch_files(lua_State* L);
+
+// Before the script runs, after everything is loaded; with watch_files. From then on, below the folder only:
 // io.open, lines, input, output; os.remove, rename; loadfile, dofile, require (Lua files alone), and all
 // of dotyk's arguments of Kind::file. debug keeps traceback alone. What is refused raises at the script's line.
 void make_safe(lua_State* L, const Folder& folder);

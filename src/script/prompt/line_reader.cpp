@@ -1,6 +1,8 @@
 #include "script/prompt/line_reader.hpp"
 
+#include <fcntl.h>
 #include <poll.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -73,6 +75,7 @@ void set_up() {
   if (ready) return;
   ready = true;
   rl_readline_name = "dotyk";
+  if (fileno(stdout) < 0) rl_outstream = fdopen(STDOUT_FILENO, "w");  // which moves the cursor, under --safe too
   rl_catch_signals = 0;  // Ctrl-C is ours
   rl_persistent_signal_handlers = 1;
   rl_attempted_completion_function = attempt;
@@ -107,6 +110,24 @@ std::string history_file() {
   return "";
 }
 
+std::FILE* kept_history = nullptr;  // open from the start: later --safe may not open it
+
+std::string open_history() {
+  constexpr int most_lines = 5000;
+  using_history();
+  history_comment_char = '#';  // "#1700000000" before each entry: it may have several lines
+  history_write_timestamps = 1;
+  stifle_history(most_lines);
+  const auto path = history_file();
+  if (path.empty()) return "";
+  if (read_history(path.c_str()) == 0 && history_length >= most_lines) history_truncate_file(path.c_str(), most_lines / 2);
+  const int file = open(path.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0600);
+  if (file < 0) return path + ": " + std::strerror(errno);
+  fchmod(file, 0600);  // of one that others could read
+  kept_history = fdopen(file, "a");
+  return "";
+}
+
 }  // namespace
 
 Read read_edited(const char* prompt, std::string& line,
@@ -130,19 +151,9 @@ Read read_edited(const char* prompt, std::string& line,
 
 Read read_plain(std::string& line) { return std::getline(std::cin, line) ? Read::line : Read::end; }
 
-std::string load_history() {
-  constexpr int most_lines = 5000;
-  using_history();
-  history_comment_char = '#';  // "#1700000000" before each entry: it may have several lines
-  history_write_timestamps = 1;
-  stifle_history(most_lines);
-  const auto path = history_file();
-  if (path.empty()) return "";
-  if (read_history(path.c_str()) == 0 && history_length >= most_lines) history_truncate_file(path.c_str(), most_lines / 2);
-  FILE* file = std::fopen(path.c_str(), "a");
-  if (!file) return path + ": " + std::strerror(errno);
-  std::fclose(file);
-  return "";
+const std::string& load_history() {
+  static const std::string reason = open_history();
+  return reason;
 }
 
 void add_to_history(const std::string& input) {
@@ -150,10 +161,9 @@ void add_to_history(const std::string& input) {
   const auto* last = history_length > 0 ? history_get(history_base + history_length - 1) : nullptr;
   if (blank || (last && input == last->line)) return;
   add_history(input.c_str());
-  if (FILE* file = std::fopen(history_file().c_str(), "a")) {
-    std::fprintf(file, "#%lld\n%s\n", static_cast<long long>(std::time(nullptr)), input.c_str());
-    std::fclose(file);
-  }
+  if (!kept_history) return;
+  std::fprintf(kept_history, "#%lld\n%s\n", static_cast<long long>(std::time(nullptr)), input.c_str());
+  std::fflush(kept_history);
 }
 
 }  // namespace dotyk::script

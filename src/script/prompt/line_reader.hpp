@@ -17,9 +17,10 @@ Read read_edited(const char* prompt, std::string& line,
 // Reads a line as it comes.
 Read read_plain(std::string& line);
 
-// Reads earlier inputs, an entry each whatever their lines, from $XDG_STATE_HOME/dotyk_history, else ~/.dotyk_history. Returns
-// why this session's will not be kept there, as "file: reason"; "" where they will, or there is no home folder.
-std::string load_history();
+// Reads earlier inputs, an entry each whatever their lines, from $XDG_STATE_HOME/dotyk_history, else ~/.dotyk_history, which
+// its owner alone can read, once a program. Returns why this session's will not be kept there, as "file: reason"; "" where
+// they will, or there is no home folder.
+const std::string& load_history();
 
 // Adds an input, to the file as well: a crash loses nothing. Repeats are skipped; a file that cannot be written is no error.
 void add_to_history(const std::string& input);

@@ -8,6 +8,8 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "script/guard/harmless_output.hpp"
+
 namespace dotyk::script {
 namespace {
 
@@ -73,12 +75,12 @@ void show_progress(const std::string& text) {
   if (now < progress_line.next || !isatty(STDERR_FILENO)) return;
   progress_line.next = now + std::chrono::milliseconds(100);
   progress_line.shown = true;
-  std::fprintf(stderr, "\r%.*s\033[K", std::max(1, columns() - 3), text.c_str());  // "^C" is echoed after it
-  std::fflush(stderr);
+  std::string rest;
+  dprintf(STDERR_FILENO, "\r%.*s\033[K", std::max(1, columns() - 3), harmless(text, rest).c_str());  // "^C" is echoed after it
 }
 
 void clear_progress() {
-  if (progress_line.shown) std::fputs("\r\033[K", stderr);
+  if (progress_line.shown) dprintf(STDERR_FILENO, "\r\033[K");  // stderr may pass no such signs (--safe)
   progress_line.working = progress_line.shown = false;
 }
 
