@@ -81,6 +81,7 @@ class Basis {
     int row;
     Vector column;
     void apply(Vector& v) const {
+      if (v[row] == 0) return;
       const double at = v[row] / column[row];
       v -= at * column;
       v[row] = at;
