@@ -3,6 +3,7 @@
 // From a mesh's cell type to its reference element, at compile time; element matrices and stresses. Used inside this room only.
 
 #include <algorithm>
+#include <cmath>
 
 #include <Eigen/Core>
 
@@ -136,6 +137,31 @@ void contract(const Hooke& h, double g[d][d]) {
     for (int j = 0; j < d; ++j) g[i][j] = h.isotropic ? lambda * of[i][j] + mu * (of[j][i] + (i == j ? trace : 0)) : general(i, j);
 }
 
+/// Is the node of an edge of a simplex of order 2 off its middle? Only there ∂x/∂ξ varies in simplices.
+template <class E>
+bool curved(const double x[][E::dim]) {
+  constexpr double kStraight = 1e-9;  // of the edge
+  if constexpr (E::simplex)
+    for (int a = E::corners; a < E::nodes; ++a) {
+      const double *from = x[E::kEdge[a - E::corners][0]], *to = x[E::kEdge[a - E::corners][1]];
+      double off = 0, length = 0;
+      for (int i = 0; i < E::dim; ++i) off += std::abs(x[a][i] - 0.5 * (from[i] + to[i])), length += std::abs(to[i] - from[i]);
+      if (off > kStraight * length) return true;
+    }
+  return false;
+}
+
+/// Calls visit(ξ, weight) for the points at which a cell's stiffness is integrated. Of a curved simplex they are those of
+/// the load rule: where an edge spans 45° of a circle, the rule of straight ones is wrong by 1.5 % in nodal forces, this
+/// one by 0.05 %.
+template <class E, class Visit>
+void for_each_stiffness_point(bool curved, Visit&& visit) {
+  if (E::simplex && E::order == 2 && curved)
+    for (int q = 0; q < E::load_points; ++q) visit(E::load_point(q), E::load_weight(q));
+  else
+    for (int q = 0; q < E::points; ++q) visit(E::point(q), E::weight(q));
+}
+
 /// k[a][b][i][j] = ∫ ∂_k φ_a c_ikjl ∂_l φ_b over the cell, for a ≥ b. Hooke's tensor is constant in a cell, so that ∂_k φ_a ∂_l φ_b is integrated first and
 /// contracted with it once.
 template <class E>
@@ -146,14 +172,14 @@ void stiffness(const double x[][E::dim], const Hooke& h, double k[][E::nodes][E:
       for (int b = 0; b <= a; ++b) visit(a, b);
   };
   each_pair([&](int a, int b) { std::fill_n(&k[a][b][0][0], d * d, 0.0); });
-  for (int q = 0; q < E::points; ++q) {
+  for_each_stiffness_point<E>(curved<E>(x), [&](const auto& xi, double weight) {
     double g[E::nodes][d];
-    const double w = physical_gradient<E>(x, E::point(q), g) * E::weight(q);
+    const double w = physical_gradient<E>(x, xi, g) * weight;
     each_pair([&](int a, int b) {
       for (int i = 0; i < d; ++i)
         for (int j = 0; j < d; ++j) k[a][b][i][j] += w * g[a][i] * g[b][j];
     });
-  }
+  });
   each_pair([&](int a, int b) { contract<d>(h, k[a][b]); });
 }
 

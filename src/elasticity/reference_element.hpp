@@ -1,8 +1,9 @@
 #pragma once
 
 // Shape functions, gradients and quadrature of the reference cells and facets, nodes as mesh::ElementTopology numbers them: as
-// compile-time types so that element kernels unroll. Stiffness is integrated exactly on straight simplices and on parallelograms, loads
-// exactly where they are quadratic (order 1), or to degree 4 or more (order 2). Used inside this room only.
+// compile-time types so that element kernels unroll. Stiffness is integrated exactly on straight simplices and on parallelograms (of
+// curved ones see for_each_stiffness_point()), loads exactly where they are quadratic (order 1), or to degree 4 or more
+// (order 2). Used inside this room only.
 
 #include <array>
 #include <cmath>

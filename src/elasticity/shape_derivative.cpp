@@ -47,16 +47,17 @@ std::vector<double> internal_force_derivative(const Mesh& mesh, const MaterialFi
   std::vector<double> out(u.size(), 0.0);
   dispatch(mesh.element, [&]<class E>() {
     for_each_cell<E>(mesh, material, [&](int c, const auto& x, const Hooke& hooke) {
-      for (int q = 0; q < E::points; ++q) {
+      constexpr bool curved = true;  // or about to be
+      for_each_stiffness_point<E>(curved, [&](const auto& xi, double weight) {
         double g[E::nodes][E::dim];
-        const double w = physical_gradient<E>(x, E::point(q), g) * E::weight(q);
+        const double w = physical_gradient<E>(x, xi, g) * weight;
         const auto s = stress_derivative<E::dim>(mesh, hooke, c, u, V, g);
         for (int a = 0; a < E::nodes; ++a)
           for (int i = 0; i < E::dim; ++i) {
             double& force = out[static_cast<std::size_t>(mesh.cell(c)[a]) * E::dim + i];
             for (int j = 0; j < E::dim; ++j) force += w * s(i, j) * g[a][j];
           }
-      }
+      });
     });
   });
   return out;

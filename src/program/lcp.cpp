@@ -4,7 +4,10 @@
 #include <cmath>
 
 #include "algebra/dense/decompositions.hpp"
+#include "algebra/direct/sparse_lu.hpp"
+#include "algebra/direct/stop_factoring.hpp"
 #include "base/error.hpp"
+#include "base/stopwatch.hpp"
 #include "base/text.hpp"
 #include "program/active_set.hpp"
 
@@ -20,19 +23,21 @@ constexpr double kSolved = 1e-9;
 /// z = scale ∘ ẑ, ŵ = scale ∘ w: complementarity stays, the diagonal becomes about 1.
 Lcp scaled(const Lcp& lcp, Vector& scale) {
   const int n = lcp.size();
+  Vector size = Vector::Zero(n);  // the diagonal, where it is 0 the greatest entry of row and column
   scale = Vector::Ones(n);
-  for (int i = 0; i < n; ++i) {
-    double size = std::abs(lcp.M(i, i));
-    if (size == 0) size = std::max(lcp.M.row(i).cwiseAbs().maxCoeff(), lcp.M.col(i).cwiseAbs().maxCoeff());
-    if (size > 0) scale[i] = 1 / std::sqrt(size);
-  }
+  for (int j = 0; j < n; ++j)
+    for (SparseMatrix::InnerIterator it(lcp.M, j); it; ++it)
+      for (const auto i : {it.row(), it.col()}) size[i] = std::max(size[i], std::abs(it.value()));
+  const Vector diagonal = lcp.M.diagonal();
+  size = (diagonal.array() != 0).select(diagonal.cwiseAbs(), size);
+  for (int i = 0; i < n; ++i)
+    if (size[i] > 0) scale[i] = 1 / std::sqrt(size[i]);
   return {scale.asDiagonal() * lcp.M * scale.asDiagonal(), scale.cwiseProduct(lcp.q), lcp.name};
 }
 
-bool semidefinite(const DenseMatrix& M) {
-  const DenseMatrix symmetric = 0.5 * (M + M.transpose());
-  const Vector values = algebra::eigenvalues(symmetric);
-  return values.minCoeff() >= -1e-12 * std::max(1.0, values.cwiseAbs().maxCoeff());
+bool semidefinite(const SparseMatrix& M) {
+  const SparseMatrix symmetric = M + SparseMatrix(M.transpose());
+  return negative_curvature(symmetric.triangularView<Eigen::Lower>(), 1e-12).size() == 0;
 }
 
 /// Linear program over the solutions that belong to a set: w = 0 and z ≥ 0 on it, z = 0 and w ≥ 0 off it.
@@ -42,7 +47,7 @@ QuadraticProgram over_set(const Lcp& lcp, const FreeSet& free, const Vector& cos
   p.P = SparseMatrix(n, n);
   p.q = cost;
   DenseMatrix a(2 * n, n);
-  a << lcp.M, DenseMatrix::Identity(n, n);
+  a << DenseMatrix(lcp.M), DenseMatrix::Identity(n, n);
   p.A = a.sparseView(0, 0);
   p.low.resize(2 * n), p.high.resize(2 * n);
   for (int i = 0; i < n; ++i) {
@@ -58,19 +63,28 @@ class Solver {
       : lcp_(lcp), settings_(settings), monitor_(monitor), n_(lcp.size()) {}
 
   LcpResult run() {
-    using Method = LcpSettings::Method;
     out_.z = Vector::Zero(n_);
-    const Method method = settings_.method;
-    if (method == Method::enumeration && n_ > kEnumerable)
-      throw InputError(text("enumeration takes up to ", kEnumerable, " unknowns, here are ", n_));
-    if (method == Method::automatic || method == Method::newton_min) newton();
-    if (!found_ && (method == Method::automatic || method == Method::lemke)) by_lemke();
-    const bool decide = method == Method::enumeration || (!found_ && method != Method::newton_min);
-    if ((decide || settings_.unique) && n_ <= kEnumerable && method != Method::newton_min) count();
+    const algebra::StopFactoring stops(monitor_);
+    try {
+      search();
+    } catch (const Interrupted&) {  // a factor was left unfinished
+    }
+    if (!found_ && monitor_.stop()) out_.reason = "stopped on request";
     return out_;
   }
 
  private:
+  void search() {
+    using Method = LcpSettings::Method;
+    const Method method = settings_.method;
+    if (method == Method::enumeration && n_ > kEnumerable)
+      throw InputError(text("enumeration takes up to ", kEnumerable, " unknowns, here are ", n_));
+    if (method == Method::automatic || method == Method::newton_min) newton();
+    if (!found_ && !monitor_.stop() && (method == Method::automatic || method == Method::lemke)) by_lemke();
+    const bool decide = method == Method::enumeration || (!found_ && method != Method::newton_min);
+    if ((decide || settings_.unique) && n_ <= kEnumerable && method != Method::newton_min && !monitor_.stop()) count();
+  }
+
   bool accept(const Vector& z, const char* method) {
     if (!z.size() || residual(lcp_, z) > kSolved) return false;
     out_.z = z.cwiseMax(0);
@@ -80,7 +94,7 @@ class Solver {
   }
 
   void newton() {
-    const NewtonMin r = newton_min(lcp_, settings_.start);
+    const NewtonMin r = newton_min(lcp_, settings_.start, monitor_);
     out_.solves = r.solves;
     out_.cycle = r.cycle;
     if (r.end == NewtonMin::End::solved && accept(r.z, "newton_min")) out_.reason = "active set confirmed";
@@ -90,7 +104,7 @@ class Solver {
   }
 
   void by_lemke() {
-    const Lemke r = lemke(lcp_);
+    const Lemke r = lemke(lcp_, monitor_);
     out_.pivots = r.pivots;
     const std::string before = out_.reason.empty() ? "" : out_.reason + "; ";
     if (r.solved && accept(r.z, "lemke")) {
@@ -139,12 +153,13 @@ void check(const Lcp& lcp) {
   if (lcp.size() == 0) throw InputError("the problem has no unknowns");
   if (lcp.M.rows() != lcp.size() || lcp.M.cols() != lcp.size())
     throw InputError(text("M is ", lcp.M.rows(), "x", lcp.M.cols(), "; q has ", lcp.size(), " entries"));
-  if (!lcp.M.allFinite() || !lcp.q.allFinite()) throw InputError("M or q holds nan or inf");
+  if (!Eigen::Map<const Vector>(lcp.M.valuePtr(), lcp.M.nonZeros()).allFinite() || !lcp.q.allFinite()) throw InputError("M or q holds nan or inf");
 }
 
 double residual(const Lcp& lcp, const Vector& z) {
   const Vector w = lcp.M * z + lcp.q;
-  const Vector size = lcp.M.cwiseAbs() * z.cwiseAbs() + lcp.q.cwiseAbs();
+  const SparseMatrix sizes = lcp.M.cwiseAbs();
+  const Vector size = sizes * z.cwiseAbs() + lcp.q.cwiseAbs();
   const double largest = z.lpNorm<Eigen::Infinity>();
   double worst = 0;
   for (int i = 0; i < lcp.size(); ++i) {
@@ -155,21 +170,36 @@ double residual(const Lcp& lcp, const Vector& z) {
 }
 
 Vector on_set(const Lcp& lcp, const FreeSet& free) {
-  std::vector<int> index;
+  constexpr std::size_t kFew = 64;  // exchanges of rows and columns tell best whether such a matrix is singular
+  std::vector<int> index, place(lcp.size(), -1);
   for (int i = 0; i < lcp.size(); ++i)
-    if (free[i]) index.push_back(i);
+    if (free[i]) place[i] = static_cast<int>(index.size()), index.push_back(i);
   Vector z = Vector::Zero(lcp.size());
   if (index.empty()) return z;
-  const algebra::PivotedLu lu(lcp.M(index, index));
-  if (!lu.regular()) return {};
-  const Vector x = lu.solve(-lcp.q(index));
+  const auto count = static_cast<Eigen::Index>(index.size());
+  algebra::Triplets entries;
+  for (int j : index)
+    for (SparseMatrix::InnerIterator it(lcp.M, j); it; ++it)
+      if (free[it.row()]) entries.emplace_back(place[it.row()], place[j], it.value());
+  const SparseMatrix M = algebra::from_triplets(count, count, entries);
+  Vector x = -lcp.q(index);
+  if (index.size() <= kFew) {
+    const algebra::PivotedLu lu{DenseMatrix(M)};
+    if (!lu.regular()) return {};
+    x = lu.solve(x);
+  } else {
+    const algebra::SparseLu lu(M);
+    if (lu.singular()) return {};
+    x = lu.solve(x);
+  }
   if (!x.allFinite()) return {};
   z(index) = x;
   return z;
 }
 
-NewtonMin newton_min(const Lcp& lcp, FreeSet free, int max_solves) {
+NewtonMin newton_min(const Lcp& lcp, FreeSet free, Monitor& monitor, int max_solves) {
   NewtonMin out;
+  const Stopwatch clock;
   free.resize(lcp.size(), 0);
   std::vector<FreeSet> seen;
   for (;;) {
@@ -181,7 +211,7 @@ NewtonMin newton_min(const Lcp& lcp, FreeSet free, int max_solves) {
       if (out.cycle.size() == 1) out.cycle.clear();
       return out;
     }
-    if (out.solves == max_solves) return out;
+    if (out.solves == max_solves || monitor.stop()) return out;
     const Vector z = on_set(lcp, free);
     if (z.size() == 0) {
       out.end = NewtonMin::End::singular;
@@ -191,10 +221,13 @@ NewtonMin newton_min(const Lcp& lcp, FreeSet free, int max_solves) {
     out.z = z;
     Vector w = lcp.M * z + lcp.q;
     seen.push_back(free);
+    int active = 0, changed = 0;
     for (int i = 0; i < lcp.size(); ++i) {
       if (free[i]) w[i] = 0;  // exactly, so that rounding does not decide
+      active += free[i], changed += free[i] != static_cast<char>(z[i] > w[i]);
       free[i] = z[i] > w[i];
     }
+    monitor.iteration({.iteration = out.solves, .active = active, .changed = changed, .seconds = clock.seconds()});
   }
 }
 
@@ -245,6 +278,7 @@ LcpResult solve(const Lcp& lcp, const LcpSettings& settings, Monitor& monitor) {
   check(lcp);
   if (!settings.start.empty() && static_cast<int>(settings.start.size()) != lcp.size())
     throw InputError(text("the start has ", settings.start.size(), " flags for ", lcp.size(), " unknowns"));
+  const Stopwatch clock;
   Vector scale;
   const Lcp units = scaled(lcp, scale);
   LcpResult out = Solver(units, settings, monitor).run();
@@ -252,6 +286,7 @@ LcpResult solve(const Lcp& lcp, const LcpSettings& settings, Monitor& monitor) {
   if (out.other.size()) out.other = scale.cwiseProduct(out.other);
   out.w = lcp.M * out.z + lcp.q;
   out.residual = residual(lcp, out.z);
+  out.seconds = clock.seconds();
   const bool found = out.status == LcpStatus::solved || out.status == LcpStatus::several;
   if (found && !(out.z.allFinite() && out.w.allFinite() && std::isfinite(out.residual))) {
     out.status = LcpStatus::stopped;

@@ -8,9 +8,9 @@
 
 namespace dotyk::program {
 
-/// The linear complementarity problem: w = Mz + q ≥ 0, z ≥ 0, zᵀw = 0; M n × n, dense, any.
+/// The linear complementarity problem: w = Mz + q ≥ 0, z ≥ 0, zᵀw = 0; M n × n, any.
 struct Lcp {
-  algebra::DenseMatrix M;
+  algebra::SparseMatrix M;
   algebra::Vector q;
   std::string name = {};
   int size() const { return static_cast<int>(q.size()); }
@@ -36,18 +36,20 @@ struct NewtonMin {
   int solves = 0;
   std::vector<FreeSet> cycle;   ///< the sets that repeat, in order
 };
-/// From a free set; ends at the first set that comes back.
-NewtonMin newton_min(const Lcp& lcp, FreeSet start, int max_solves = 1000);
+/// From a free set; ends at the first set that comes back, or where the monitor asks to stop.
+NewtonMin newton_min(const Lcp& lcp, FreeSet start, Monitor& monitor, int max_solves = 1000);
 
-/// Lemke's method (Lemke 1965; Cottle, Pang and Stone 1992, section 4.4) with covering vector 1 and the
-/// lexicographic rule, so that it cannot cycle. Without a solution it ends on a ray, which proves that there
-/// is none where M is positive semidefinite (more generally, copositive-plus), and nothing otherwise.
+/// Lemke's method (Lemke 1965; Cottle, Pang and Stone 1992, section 4.4) with covering vector 1. Of rows that block at once
+/// the least is taken for q + εp, p random and ε as small as need be, so that it does not cycle. Without a solution it ends
+/// on a ray, which proves that there is none where M is positive semidefinite (more generally, copositive-plus), and
+/// nothing otherwise. A sparse factor of the basis is updated by product form for some pivots: a pivot costs as much as
+/// two solves. Ends where the monitor asks to stop, too.
 struct Lemke {
   bool solved = false, ray = false;
   algebra::Vector z;
   int pivots = 0;
 };
-Lemke lemke(const Lcp& lcp, int max_pivots = 100000);
+Lemke lemke(const Lcp& lcp, Monitor& monitor, int max_pivots = 100000);
 
 /// Solutions by trying every set, n ≤ 16: at most `most` distinct ones; `continuum` where a set with
 /// singular M has a whole segment of them (two of its points are then among the solutions).
@@ -75,7 +77,7 @@ struct LcpResult {
   algebra::Vector other;           ///< a second one, where there are several
   std::vector<FreeSet> cycle;      ///< sets among which newton_min went round
   int solves = 0, pivots = 0;
-  double residual = 0;
+  double residual = 0, seconds = 0;
   bool counted = false;            ///< uniqueness was decided
 };
 

@@ -24,11 +24,13 @@ class LcpReader {
     const int rows = count("the rows", n, n), columns = count("the columns", n, n);
     // A number takes two bytes at least.
     if (2.0 * n * (storage == 0 ? n : 1) > bytes_ + 1) throw InputError(text("'", file_, "': it is too short for a problem of ", n, " rows"));
-    require_memory(8.0 * n * n, text("'", file_, "': the dense matrix of ", n, " rows"));
+    require_memory(16 * std::min(1.0 * n * n, bytes_ / 2), text("'", file_, "': the matrix of ", n, " rows"));
     Lcp lcp;
-    lcp.M = algebra::DenseMatrix::Zero(rows, columns);
-    if (storage == 0) dense(lcp);
-    else blocks(lcp);
+    if (storage == 0) dense(n);
+    else blocks(n);
+    lcp.M.resize(rows, columns);
+    lcp.M.setFromTriplets(entries_.begin(), entries_.end(), [](double, double last) { return last; });
+    lcp.M.prune(0.0);
     lcp.q.resize(n);
     for (double& x : lcp.q) x = number("q");
     lcp.name = std::filesystem::path(file_).filename();
@@ -49,17 +51,16 @@ class LcpReader {
     return static_cast<int>(x);
   }
 
-  void dense(Lcp& lcp) {
-    const int n = static_cast<int>(lcp.M.rows());
+  void dense(int n) {
     count("the rows of M", n, n), count("the columns of M", n, n);
     for (int j = 0; j < n; ++j)
-      for (int i = 0; i < n; ++i) lcp.M(i, j) = number("M");
+      for (int i = 0; i < n; ++i)
+        if (const double value = number("M"); value != 0) entries_.emplace_back(i, j, value);
   }
 
   /// Blocks by compressed rows: their number, the blocks a side, the cumulated sizes, the two index arrays, and
-  /// for each block its number and its entries by columns.
-  void blocks(Lcp& lcp) {
-    const int n = static_cast<int>(lcp.M.rows());
+  /// for each block its number and its entries by columns. Of blocks at one place the last counts.
+  void blocks(int n) {
     const int total = count("the number of blocks", 1, std::min(static_cast<double>(n) * n, 1e9));
     const int down = count("the block rows", 1, n), across = count("the block columns", 1, n);
     const auto ends = [&](int size) {
@@ -78,13 +79,14 @@ class LcpReader {
       count("a block's number", k, k);
       while (first[i + 1] <= k) ++i;
       for (int c = column[place[k]]; c < column[place[k] + 1]; ++c)
-        for (int r = row[i]; r < row[i + 1]; ++r) lcp.M(r, c) = number("M");
+        for (int r = row[i]; r < row[i + 1]; ++r) entries_.emplace_back(r, c, number("M"));
     }
   }
 
   std::string file_;
   std::ifstream in_;
   double bytes_ = 0;
+  algebra::Triplets entries_;
 };
 
 }  // namespace

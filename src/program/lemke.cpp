@@ -1,29 +1,44 @@
 #include <cmath>
+#include <optional>
+#include <random>
 
+#include "algebra/direct/sparse_lu.hpp"
+#include "base/stopwatch.hpp"
 #include "program/lcp.hpp"
 
 namespace dotyk::program {
 
-using algebra::DenseMatrix;
+using algebra::SparseMatrix;
 using algebra::Vector;
 
 namespace {
 
-/// Rows of the tableau w − Mz − e z₀ = q, columns w (n), z (n), z₀, right-hand side.
-class Tableau {
+constexpr int kUpdates = 64;  ///< of a factor, before it is made anew
+
+/// The basis B of n of the columns of w − Mz − e z₀ = q; variables are w (n), z (n), z₀.
+class Basis {
  public:
-  explicit Tableau(const Lcp& lcp) : n_(lcp.size()), t_(n_, 2 * n_ + 2), basis_(n_) {
-    t_.leftCols(n_).setIdentity();
-    t_.middleCols(n_, n_) = -lcp.M;
-    t_.col(2 * n_).setConstant(-1);
-    t_.col(2 * n_ + 1) = lcp.q;
-    for (int i = 0; i < n_; ++i) basis_[i] = i;
+  explicit Basis(const Lcp& lcp) : lcp_(lcp), n_(lcp.size()), q_(lcp.q), p_(n_), variable_(n_) {
+    std::mt19937 engine(1);
+    for (double& x : p_) x = 1 + engine() / 4294967296.0;
+    for (int i = 0; i < n_; ++i) variable_[i] = i;
+    factor();
   }
 
   int artificial() const { return 2 * n_; }
   int complement(int variable) const { return variable < n_ ? variable + n_ : variable - n_; }
+  bool regular() const { return !factor_->singular(); }
 
-  /// The lexicographically least row of right-hand side and inverse: z₀ enters there.
+  /// B⁻¹ times the column of a variable.
+  Vector column(int variable) const {
+    Vector c = Vector::Zero(n_);
+    if (variable == artificial()) c.setConstant(-1);
+    else if (variable < n_) c[variable] = 1;
+    else c = -lcp_.M.col(variable - n_);
+    return solve(std::move(c));
+  }
+
+  /// The row that z₀ enters at.
   int most_negative() const {
     int best = 0;
     for (int i = 1; i < n_; ++i)
@@ -31,80 +46,111 @@ class Tableau {
     return best;
   }
 
-  /// Lexicographic ratio test; −1 on a ray. z₀ leaves whenever it may.
-  int leaving(int entering) const {
-    const double least = 1e-11 * std::max(1.0, t_.col(entering).cwiseAbs().maxCoeff());
+  /// The row at which a variable of this column enters; −1 on a ray. z₀ leaves whenever it may.
+  int leaving(const Vector& entering) const {
+    const double least = 1e-11 * std::max(1.0, entering.cwiseAbs().maxCoeff());
     int best = -1;
-    for (int i = 0; i < n_; ++i) {
-      if (t_(i, entering) <= least) continue;
-      if (best < 0 || less(i, t_(i, entering), best, t_(best, entering))) best = i;
-    }
-    if (best < 0) return -1;
-    const double ratio = t_(best, 2 * n_ + 1) / t_(best, entering);
     for (int i = 0; i < n_; ++i)
-      if (basis_[i] == artificial() && t_(i, entering) > least &&
-          t_(i, 2 * n_ + 1) / t_(i, entering) <= ratio + 1e-12 * (1 + std::abs(ratio)))
+      if (entering[i] > least && (best < 0 || less(i, entering[i], best, entering[best]))) best = i;
+    if (best < 0) return -1;
+    const double ratio = x_[best] / entering[best];
+    for (int i = 0; i < n_; ++i)
+      if (variable_[i] == artificial() && entering[i] > least && x_[i] / entering[i] <= ratio + 1e-12 * (1 + std::abs(ratio)))
         return i;
     return best;
   }
 
-  /// `entering` takes the place of the basic variable of a row, which is returned.
-  int pivot(int row, int entering) {
-    t_.row(row) /= t_(row, entering);
-    for (int i = 0; i < n_; ++i)
-      if (i != row && t_(i, entering) != 0) t_.row(i) -= t_(i, entering) * t_.row(row).eval();
-    std::swap(basis_[row], entering);
+  /// `entering`, of this column, takes the place of the variable of a row, which is returned.
+  int pivot(int row, int entering, Vector column) {
+    std::swap(variable_[row], entering);
+    updates_.push_back({row, std::move(column)});
+    if (updates_.size() == kUpdates) factor();
+    else updates_.back().apply(x_), updates_.back().apply(slope_);
     return entering;
   }
 
   FreeSet free() const {
     FreeSet set(n_, 0);
-    for (int variable : basis_)
+    for (int variable : variable_)
       if (variable >= n_ && variable < 2 * n_) set[variable - n_] = 1;
     return set;
   }
 
  private:
-  /// Row a over pivot pa before row b over pb: right-hand side first, then the columns of the inverse.
-  bool less(int a, double pa, int b, double pb) const {
-    const auto compare = [&](int column) { return t_(a, column) / pa - t_(b, column) / pb; };
-    for (int k = -1; k < n_; ++k) {
-      const int column = k < 0 ? 2 * n_ + 1 : k;
-      const double d = compare(column);
-      if (std::abs(d) > 1e-12 * (1 + std::abs(t_(a, column) / pa))) return d < 0;
+  struct Update {
+    int row;
+    Vector column;
+    void apply(Vector& v) const {
+      if (v[row] == 0) return;
+      const double at = v[row] / column[row];
+      v -= at * column;
+      v[row] = at;
     }
-    return a < b;
+  };
+
+  void factor() {
+    algebra::Triplets entries;
+    for (int k = 0; k < n_; ++k)
+      if (const int v = variable_[k]; v < n_) entries.emplace_back(v, k, 1);
+      else if (v == artificial())
+        for (int i = 0; i < n_; ++i) entries.emplace_back(i, k, -1);
+      else
+        for (SparseMatrix::InnerIterator it(lcp_.M, v - n_); it; ++it) entries.emplace_back(it.row(), k, -it.value());
+    matrix_ = algebra::from_triplets(n_, n_, entries);
+    factor_.emplace(matrix_);
+    updates_.clear();
+    if (regular()) x_ = solve(q_), slope_ = solve(p_);
   }
 
+  Vector solve(Vector b) const {
+    b = factor_->solve(b);
+    for (const Update& update : updates_) update.apply(b);
+    return b;
+  }
+
+  /// Row a over pivot pa before row b over pb: the solution first, then how it changes with ε.
+  bool less(int a, double pa, int b, double pb) const {
+    const double value = x_[a] / pa, difference = value - x_[b] / pb;
+    if (std::abs(difference) > 1e-12 * (1 + std::abs(value))) return difference < 0;
+    return slope_[a] / pa < slope_[b] / pb;
+  }
+
+  const Lcp& lcp_;
   int n_;
-  DenseMatrix t_;
-  std::vector<int> basis_;
+  Vector q_, p_, x_, slope_;  ///< x = B⁻¹q, slope = B⁻¹p
+  std::vector<int> variable_;
+  SparseMatrix matrix_;
+  std::optional<algebra::SparseLu> factor_;
+  std::vector<Update> updates_;
 };
 
 }  // namespace
 
-Lemke lemke(const Lcp& lcp, int max_pivots) {
+Lemke lemke(const Lcp& lcp, Monitor& monitor, int max_pivots) {
   Lemke out;
   out.z = Vector::Zero(lcp.size());
   if (lcp.size() == 0 || lcp.q.minCoeff() >= 0) {
     out.solved = true;
     return out;
   }
-  Tableau tableau(lcp);
-  int entering = tableau.complement(tableau.pivot(tableau.most_negative(), tableau.artificial()));
-  for (out.pivots = 1; out.pivots < max_pivots; ++out.pivots) {
-    const int row = tableau.leaving(entering);
+  const Stopwatch clock;
+  Basis basis(lcp);
+  int entering = basis.artificial();
+  for (; out.pivots < max_pivots && basis.regular() && !monitor.stop(); ++out.pivots) {
+    Vector column = basis.column(entering);
+    const int row = out.pivots == 0 ? basis.most_negative() : basis.leaving(column);
     if (row < 0) {
       out.ray = true;
       return out;
     }
-    const int left = tableau.pivot(row, entering);
-    if (left == tableau.artificial()) {
-      const Vector z = on_set(lcp, tableau.free());  // the tableau's numbers carry the errors of all pivots
+    const int left = basis.pivot(row, entering, std::move(column));
+    if (left == basis.artificial()) {
+      const Vector z = on_set(lcp, basis.free());  // the basis's numbers carry the errors of updates
       if (z.size()) out.z = z, out.solved = true;
       return out;
     }
-    entering = tableau.complement(left);
+    if (out.pivots % kUpdates == 0) monitor.iteration({.iteration = out.pivots, .changed = 1, .seconds = clock.seconds()});
+    entering = basis.complement(left);
   }
   return out;
 }

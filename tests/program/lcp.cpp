@@ -20,6 +20,8 @@ FreeSet set_of(unsigned bits, int n) {
   return free;
 }
 
+Lcp lcp_of(const DenseMatrix& M, const Vector& q) { return {M.sparseView(0, 0), q}; }
+
 DenseMatrix circulant(double a) {
   DenseMatrix M(3, 3);
   M << 1, 0, a, a, 1, 0, 0, a, 1;
@@ -32,8 +34,8 @@ TEST_CASE("the P-matrix of Ben Gharbia and Gilbert: cycles are noticed and solve
   Monitor quiet;
   for (const double a : {2.0, 1.1, 0.9})
     for (unsigned bits = 0; bits < 8; ++bits) {
-      const Lcp lcp{circulant(a), Vector::Ones(3)};
-      const auto plain = program::newton_min(lcp, set_of(bits, 3));
+      const Lcp lcp = lcp_of(circulant(a), Vector::Ones(3));
+      const auto plain = program::newton_min(lcp, set_of(bits, 3), quiet);
       const bool trivial = bits == 0 || bits == 7 || a < 1;
       CHECK(plain.end == (trivial ? program::NewtonMin::End::solved : program::NewtonMin::End::cycle));
       CHECK(plain.cycle.size() == (trivial ? 0 : 3));
@@ -51,10 +53,10 @@ TEST_CASE("random problems: Newton, Lemke and enumeration agree on P-matrices") 
   for (int trial = 0; trial < 300; ++trial) {
     const int n = 1 + trial % 8;
     DenseMatrix K = random.matrix(n, n) * 3;
-    const Lcp lcp{random.positive_definite(n, 0.1) + K - K.transpose(), random.vector(n)};
+    const Lcp lcp = lcp_of(random.positive_definite(n, 0.1) + K - K.transpose(), random.vector(n));
     const auto all = program::enumerate(lcp, 3, quiet);
     REQUIRE(all.solutions.size() == 1);
-    const auto lemke = program::lemke(lcp);
+    const auto lemke = program::lemke(lcp, quiet);
     REQUIRE(lemke.solved);
     CHECK((lemke.z - all.solutions[0]).norm() < 1e-9 * (1 + lemke.z.norm()));
     const auto r = program::solve(lcp, {}, quiet);
@@ -67,7 +69,7 @@ TEST_CASE("random problems: Newton, Lemke and enumeration agree on P-matrices") 
 
 TEST_CASE("no solution, one, two, and a segment are told apart") {
   Monitor quiet;
-  const auto status = [&](const DenseMatrix& M, const Vector& q) { return program::solve(Lcp{M, q}, {}, quiet).status; };
+  const auto status = [&](const DenseMatrix& M, const Vector& q) { return program::solve(lcp_of(M, q), {}, quiet).status; };
   CHECK(status(DenseMatrix{{1, -1}, {-1, 1}}, Vector{{1, -2}}) == LcpStatus::none);     // load outside the cone
   CHECK(status(DenseMatrix{{1, -1}, {-1, 1}}, Vector{{1, -1}}) == LcpStatus::several);  // a ray
   CHECK(status(DenseMatrix{{1, 1}, {1, 1}}, Vector{{-1, -1}}) == LcpStatus::several);   // a segment
@@ -83,10 +85,11 @@ TEST_CASE("no solution, one, two, and a segment are told apart") {
 }
 
 TEST_CASE("Murty's matrix, exponential for least-index pivoting, takes n + 1 solves") {
+  Monitor quiet;
   for (int n : {6, 12}) {
     DenseMatrix M = DenseMatrix::Constant(n, n, 2).triangularView<Eigen::StrictlyLower>();
     M.diagonal().setOnes();
-    const auto r = program::newton_min(Lcp{M, -Vector::Ones(n)}, FreeSet(n, 0));
+    const auto r = program::newton_min(lcp_of(M, -Vector::Ones(n)), FreeSet(n, 0), quiet);
     CHECK(r.end == program::NewtonMin::End::solved);
     CHECK(r.solves == n + 1);
     CHECK((r.z - Vector::Unit(n, 0)).norm() == 0);
@@ -103,7 +106,7 @@ TEST_CASE("Murty's matrix again, with the right-hand side that takes Lemke's met
     program::LcpSettings by_lemke;
     by_lemke.method = program::LcpSettings::Method::lemke;
     by_lemke.unique = false;
-    const auto r = program::solve(Lcp{M, q}, by_lemke, quiet), other = program::solve(Lcp{M, q}, {}, quiet);
+    const auto r = program::solve(lcp_of(M, q), by_lemke, quiet), other = program::solve(lcp_of(M, q), {}, quiet);
     CHECK(other.status == program::LcpStatus::solved);
     if (n == 10) {
       CHECK(r.status == program::LcpStatus::solved);
@@ -122,7 +125,7 @@ TEST_CASE("symmetric problems are bound-constrained programs") {
     const int n = 2 + trial % 12;
     const DenseMatrix M = random.positive_definite(n, 0.2);
     const Vector q = random.vector(n);
-    const auto lcp = program::solve(Lcp{M, q}, {}, quiet);
+    const auto lcp = program::solve(lcp_of(M, q), {}, quiet);
     const auto p = program::solve(test::quadratic(M, q, DenseMatrix::Identity(n, n), Vector::Zero(n), Vector::Constant(n, INFINITY)),
                                   test::one(), quiet);
     CHECK((lcp.z - p.x).norm() < 1e-9 * (1 + p.x.norm()));
@@ -136,10 +139,10 @@ TEST_CASE("scales: a problem in other units has the same answer") {
   for (int trial = 0; trial < 50; ++trial) {
     const int n = 5;
     const DenseMatrix K = random.matrix(n, n);
-    const Lcp lcp{random.positive_definite(n, 0.5) + K - K.transpose(), random.vector(n)};
+    const Lcp lcp = lcp_of(random.positive_definite(n, 0.5) + K - K.transpose(), random.vector(n));
     Vector s(n);
     for (double& x : s) x = std::pow(10.0, random.below(9) - 4);
-    const Lcp other{s.asDiagonal() * lcp.M * s.asDiagonal(), s.cwiseProduct(lcp.q)};
+    const Lcp other = lcp_of(s.asDiagonal() * DenseMatrix(lcp.M) * s.asDiagonal(), s.cwiseProduct(lcp.q));
     const auto a = program::solve(lcp, {}, quiet), b = program::solve(other, {}, quiet);
     CHECK(b.status == LcpStatus::solved);
     CHECK((s.cwiseProduct(b.z) - a.z).norm() < 1e-8 * (1 + a.z.norm()));
@@ -148,8 +151,59 @@ TEST_CASE("scales: a problem in other units has the same answer") {
 
 TEST_CASE("what does not fit is refused") {
   Monitor quiet;
-  CHECK_THROWS_AS(program::check(Lcp{DenseMatrix::Identity(2, 2), Vector::Ones(3)}), InputError);
-  CHECK_THROWS_AS(program::solve(Lcp{DenseMatrix::Identity(2, 2), Vector::Ones(2)}, {.method = program::LcpSettings::Method::automatic, .start = FreeSet(3), .unique = true}, quiet), InputError);
-  CHECK_THROWS_AS(program::solve(Lcp{DenseMatrix::Identity(20, 20), Vector::Ones(20)},
+  CHECK_THROWS_AS(program::check(lcp_of(DenseMatrix::Identity(2, 2), Vector::Ones(3))), InputError);
+  CHECK_THROWS_AS(program::solve(lcp_of(DenseMatrix::Identity(2, 2), Vector::Ones(2)), {.method = program::LcpSettings::Method::automatic, .start = FreeSet(3), .unique = true}, quiet), InputError);
+  CHECK_THROWS_AS(program::solve(lcp_of(DenseMatrix::Identity(20, 20), Vector::Ones(20)),
                                  {.method = program::LcpSettings::Method::enumeration, .start = {}, .unique = true}, quiet), InputError);
+}
+
+namespace {
+
+/// A chain of n springs, its ends held, over a floor that its own weight presses it on: M is tridiagonal.
+Lcp chain(int n) {
+  algebra::Triplets entries;
+  for (int i = 0; i < n; ++i) {
+    entries.emplace_back(i, i, 2);
+    if (i > 0) entries.emplace_back(i, i - 1, -1), entries.emplace_back(i - 1, i, -1);
+  }
+  Vector q(n);
+  for (int i = 0; i < n; ++i) q[i] = std::sin(0.7 * i) - 0.1;
+  return {algebra::from_triplets(n, n, entries), q};
+}
+
+/// Asks to stop when it is asked for the time `after` + 1.
+struct Impatient : Monitor {
+  int after, asked = 0;
+  explicit Impatient(int after) : after(after) {}
+  bool stop() override { return ++asked > after; }
+};
+
+}  // namespace
+
+TEST_CASE("large sparse problems: Lemke's method and Newton's find the same") {
+  Monitor quiet;
+  program::LcpSettings by_lemke, by_newton;
+  by_lemke.method = program::LcpSettings::Method::lemke, by_newton.method = program::LcpSettings::Method::newton_min;
+  const Lcp lcp = chain(1500);
+  const auto lemke = program::solve(lcp, by_lemke, quiet), newton = program::solve(lcp, by_newton, quiet);
+  REQUIRE_MESSAGE(lemke.status == LcpStatus::solved, lemke.reason);
+  REQUIRE_MESSAGE(newton.status == LcpStatus::solved, newton.reason);
+  CHECK((lemke.z - newton.z).norm() < 1e-9 * newton.z.norm());
+  CHECK(lemke.pivots > 100);
+  CHECK(lemke.seconds > 0);
+}
+
+TEST_CASE("each method ends where the monitor asks to, and says so") {
+  using Method = program::LcpSettings::Method;
+  for (const auto method : {Method::automatic, Method::newton_min, Method::lemke, Method::enumeration}) {
+    program::LcpSettings settings;
+    settings.method = method;
+    Impatient monitor(1);
+    const auto r = program::solve(method == Method::enumeration ? chain(16) : chain(300), settings, monitor);
+    CHECK(r.status == LcpStatus::stopped);
+    CHECK(r.reason == "stopped on request");
+    CHECK(r.pivots <= 1);
+    CHECK(r.solves <= 1);
+    CHECK(monitor.asked <= 8);
+  }
 }

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "algebra/direct/blas_threads.hpp"
+#include "algebra/direct/stop_factoring.hpp"
 
 namespace dotyk::algebra {
 
@@ -29,9 +30,11 @@ SparseLu::SparseLu(const SparseMatrix& a) : a_(a) {
   int status = umfpack_di_symbolic(n, n, a.outerIndexPtr(), a.innerIndexPtr(), a.valuePtr(), &symbolic, nullptr, nullptr);
   check(status, "LU analysis");
   double info[UMFPACK_INFO];
-  status = umfpack_di_numeric(a.outerIndexPtr(), a.innerIndexPtr(), a.valuePtr(), symbolic, &numeric, nullptr, info);
-  umfpack_di_free_symbolic(&symbolic);
-  numeric_ = std::shared_ptr<void>(numeric, [](void* factors) { umfpack_di_free_numeric(&factors); });
+  stoppable([&] {
+    status = umfpack_di_numeric(a.outerIndexPtr(), a.innerIndexPtr(), a.valuePtr(), symbolic, &numeric, nullptr, info);
+    umfpack_di_free_symbolic(&symbolic);
+    numeric_ = std::shared_ptr<void>(numeric, [](void* factors) { umfpack_di_free_numeric(&factors); });
+  });
   check(status, "LU factorisation");
   // The ratio of least to greatest pivot: rounding leaves a dependent row some 1e-16.
   singular_ = status == UMFPACK_WARNING_singular_matrix || info[UMFPACK_RCOND] < 1e-14;

@@ -30,6 +30,7 @@ std::vector<Key> solve_keys() {
           key::positive("tol", "active_set and interior_point: on residuals, in the scaled program").into(&ActiveSet::tol).into(&InteriorPoint::tol),
           key::integer("max_iterations", "give up after so many").at_least(1)
               .otherwise("20000 (active_set), 200 (others)").into(&ActiveSet::max_iterations).into(&InteriorPoint::max_iterations).into(&L::max_iterations),
+          key::boolean("exact", "interior_point: active sets end it, exactly").into(&InteriorPoint::exact),
           key::positive("M", "augmented Lagrangians: inner precision, |gradient| <= M |Dx - d|").into(&L::M),
           key::positive("rho", "first penalty; as M for B and c divided by their greatest entry, where that is beyond 1e6 or below 1e-6").into(&L::rho),
           key::number("alpha", "factor on eta when |Dx - d| <= eta").within(0, 1).into(&L::alpha),
@@ -129,7 +130,7 @@ Lcp given_lcp(const Call& call) {
   if (!call.has("M") || !call.has("q")) throw InputError("M and q are needed, or a file");
   Lcp lcp;
   lcp.q = vector_of(call.vector("q"));
-  lcp.M = dense_matrix(call.matrix("M"), lcp.q.size(), "M", text("q has ", lcp.q.size()));
+  lcp.M = square_matrix(call, "M", lcp.size(), "q");
   return lcp;
 }
 
@@ -163,15 +164,15 @@ void bind_lcp(Library& library) {
   using Method = LcpSettings::Method;
   library.function(
       {.name = "dotyk.lcp",
-       .help = "Solves a linear complementarity problem w = Mz + q >= 0, z >= 0, z'w = 0, M small, dense and not "
-               "necessarily symmetric. The active-set method (newton_min) is tried first; where it goes round in "
-               "circles, or meets a singular matrix, Lemke's method; up to 16 unknowns enumeration says whether there "
+       .help = "Solves a linear complementarity problem w = Mz + q >= 0, z >= 0, z'w = 0, M not necessarily "
+               "symmetric, and sparse where it is large. The active-set method (newton_min) is tried first; where it goes "
+               "round in circles, or meets a singular matrix, Lemke's method; up to 16 unknowns enumeration says whether there "
                "is no solution, or more than one.",
        .example = "local r = dotyk.lcp{ M = {{1, 0, 2}, {2, 1, 0}, {0, 2, 1}}, q = {1, 1, 1}, start = {1} }\n"
                   "print(r.status, #r.cycle, r.method)\nio.open(\"two.dat\", \"w\"):write \"2  0 2 2 2 2  2 1  1 2  -1 -1\":close()\nprint(dotyk.lcp \"two.dat\")",
        .arguments = {key::table(
            {key::file("file", "a file in the text format of siconos, instead of M and q").otherwise("none"),
-            key::matrix("M", "n x n"), key::vector("q", "n"),
+            matrix_key("M", "n x n"), key::vector("q", "n"),
             key::choice<Method>("method", {{"automatic", Method::automatic}, {"newton_min", Method::newton_min}, {"lemke", Method::lemke},
                                            {"enumeration", Method::enumeration}}, "one method alone, or one after the other").into(&LcpSettings::method),
             key::list("start", key::integer("", ""), "unknowns that are free (w = 0) in newton_min's first set").otherwise("none"),
@@ -190,6 +191,7 @@ void bind_lcp(Library& library) {
       .field("pivots", "of Lemke's method", &LcpResult::pivots)
       .field("counted", "was it decided whether there are further solutions?", &LcpResult::counted)
       .field("residual", "largest min(z, w), relative row by row", &LcpResult::residual)
+      .field("seconds", "time taken", &LcpResult::seconds, "s")
       .text([](const LcpResult& r) { return text("lcp_result: ", program::text_of(r.status), ", ", r.reason); });
 }
 

@@ -11,7 +11,7 @@ namespace {
 using program::SparseMatrix;
 using program::SparseRows;
 using program::Vector;
-using Entries = std::vector<Eigen::Triplet<double>>;
+using Entries = algebra::Triplets;
 
 struct Matrix {
   Entries entries;
@@ -128,6 +128,8 @@ program::QuadraticProgram read_program_file(const std::string& file, Monitor& mo
   throw InputError("'" + file + "' ends neither in .qps or .mps nor in .mat");
 }
 
+}  // namespace
+
 Key matrix_key(std::string name, std::string help) {
   return key::table(std::move(name),
                     {key::list("i", key::integer("", "").at_least(1), "rows of the entries, from 1"),
@@ -137,8 +139,6 @@ Key matrix_key(std::string name, std::string help) {
       .with(key::vector("row", "the numbers of a row"));
 }
 
-}  // namespace
-
 std::vector<Key> program_keys() {
   return {key::file("file", "a program in a .qps, .mps or .mat file, instead of the matrices").otherwise("none"),
           matrix_key("B", "quadratic term, symmetric"), key::vector("c", "linear term: the objective has -c'x"),
@@ -146,6 +146,14 @@ std::vector<Key> program_keys() {
           matrix_key("A", "rows of the inequalities low <= Ax <= high"),
           limits_key("low", "lower limits of Ax", "none"), limits_key("high", "upper limits of Ax", "none"),
           limits_key("x_low", "lower bounds of x", "none"), limits_key("x_high", "upper bounds of x", "none")};
+}
+
+algebra::SparseMatrix square_matrix(const Arguments& given, const std::string& name, int n, const std::string& vector) {
+  const Matrix M = matrix_of(given, name, n);
+  const bool triplets = given.table(name).has("i");  // whose last rows may be empty
+  if (M.rows > n || (!triplets && M.rows < n))
+    throw InputError(text("'", name, "' has ", M.rows, " rows; '", vector, "' has ", n, " entries"));
+  return algebra::from_triplets(n, n, M.entries);
 }
 
 std::shared_ptr<program::QuadraticProgram> read_program(const Arguments& given, Monitor& monitor) {
@@ -161,11 +169,7 @@ std::shared_ptr<program::QuadraticProgram> read_program(const Arguments& given, 
   const int n = p->unknowns();
   p->P = SparseMatrix(n, n);
   if (given.has("B")) {
-    const Matrix B = matrix_of(given, "B", n);
-    const bool triplets = given.table("B").has("i");  // whose last rows may be empty
-    if (B.rows > n || (!triplets && B.rows < n)) throw InputError(text("'B' has ", B.rows, " rows; 'c' has ", n, " entries"));
-    SparseMatrix full(n, n);
-    full.setFromTriplets(B.entries.begin(), B.entries.end());
+    const SparseMatrix full = square_matrix(given, "B", n, "c");
     const SparseMatrix transposed = full.transpose();
     if ((full - transposed).norm() > 1e-12 * full.norm()) throw InputError("'B' is not symmetric");
     p->P = full.triangularView<Eigen::Lower>();

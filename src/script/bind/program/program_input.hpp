@@ -17,6 +17,11 @@ struct ProgramResult {
 template <> struct Wrapped<ProgramResult> : Called<"program_result"> {};
 template <> struct Wrapped<program::LcpResult> : Called<"lcp_result"> {};
 
+// A matrix as rows of numbers or as triplets, and how it is read as one of n rows and columns; `vector` names what else has
+// n entries. Throws InputError.
+Key matrix_key(std::string name, std::string help);
+algebra::SparseMatrix square_matrix(const Arguments& given, const std::string& name, int n, const std::string& vector);
+
 // The keys of dotyk.qp that say what the program is.
 std::vector<Key> program_keys();
 // The program they describe. Throws InputError.
