@@ -250,8 +250,8 @@ void contact_legend(const Stage& stage, std::vector<LegendEntry>& out) {
 std::vector<Label> labels(const Stage& stage) {
   std::vector<Label> out;
   if (stage.pressures() && stage.plane && !stage.map())
-    for (const ContactPicture& contact : stage.picture.contacts)
-      if (const std::optional<Label> label = peak_label(stage, contact)) out.push_back(*label);
+    for (const std::optional<Label>& label : peak_labels(stage))
+      if (label) out.push_back(*label);
   if (stage.crowded)
     for (Label& label : out) label.box = pushed(label.box, stage.frame);
   return out;

@@ -1,5 +1,7 @@
 // The greatest pressure in words, where it covers nothing.
+#include <cmath>
 #include <iterator>
+#include <map>
 
 #include "figure/scene/stage.hpp"
 #include "figure/canvas/axes.hpp"
@@ -11,10 +13,10 @@ namespace {
 using Line = std::array<Point, 2>;
 
 // Outlines of bodies, surfaces of obstacles and the ends of their hatching,
-// ordinates of pressure: those of them that come near a place.
+// ordinates of pressure, in squares of the picture.
 class Barriers {
 public:
-  Barriers(const Stage& stage, const Box& near) : near_(near) {
+  explicit Barriers(const Stage& stage) : side_(stage.em) {
     const ScenePicture& p = stage.picture;
     for (const BodyPicture& body : p.bodies)
       for (const auto& [a, b] : pairs(body.facets)) {
@@ -35,13 +37,32 @@ public:
   }
 
   bool cross(const Box& box) const {
-    return std::any_of(lines_.begin(), lines_.end(), [&](Line line) { return crop(line[0], line[1], box); });
+    const auto crosses = [&](Line line) { return crop(line[0], line[1], box); };
+    return std::ranges::any_of(long_, crosses) || any_square(box, [&](const Square& at) {
+             const auto found = squares_.find(at);
+             return found != squares_.end() && std::ranges::any_of(found->second, crosses);
+           });
   }
 
 private:
+  using Square = std::array<long, 2>;
+  static constexpr double most = 64;  // squares that a line is put in
+
+  long square(double coordinate) const { return std::lround(std::floor(coordinate / side_)); }
+
+  template <class Ask>
+  bool any_square(const Box& box, const Ask& ask) const {
+    for (long i = square(box.left); i <= square(box.right); ++i)
+      for (long j = square(box.bottom); j <= square(box.top); ++j)
+        if (ask({i, j})) return true;
+    return false;
+  }
+
   void add(Point p, Point q) {
-    Point a = p, b = q;
-    if (crop(a, b, near_)) lines_.push_back({p, q});
+    Bounds box;
+    box.add(p), box.add(q);
+    if (!((box.width() / side_ + 1) * (box.height() / side_ + 1) <= most)) return long_.push_back({p, q});
+    any_square(box, [&](const Square& at) { return squares_[at].push_back({p, q}), false; });
   }
 
   void add_tips(const Stage& stage, const ContactPicture& contact) {
@@ -53,13 +74,14 @@ private:
     }
   }
 
-  Box near_;
-  std::vector<Line> lines_;
+  double side_;
+  std::map<Square, std::vector<Line>> squares_;
+  std::vector<Line> long_;
 };
 
 // The free place nearest to the wanted one: farther out along n first, then to
 // the sides of it.
-Box free_place(const Stage& stage, const Box& wanted, Point n, bool within_frame) {
+Box free_place(const Stage& stage, const Barriers& barriers, const Box& wanted, Point n, bool within_frame) {
   const double em = stage.em;
   // A window's sides cut the contact; a label there moves along it.
   const bool upright = std::abs(n.y) >= std::abs(n.x);
@@ -67,7 +89,6 @@ Box free_place(const Stage& stage, const Box& wanted, Point n, bool within_frame
   if (!within_frame && upright) lateral.bottom = -1e9, lateral.top = 1e9;
   if (!within_frame && !upright) lateral.left = -1e9, lateral.right = 1e9;
   const auto settled = [&](const Box& box) { return stage.window ? pushed(box, lateral) : box; };
-  const Barriers barriers(stage, wanted.grown(12 * em));
   const double step_out = 0.4 * em, step_along = 0.25 * (upright ? wanted.width() : wanted.height());
   std::vector<std::pair<double, Box>> tries;  // with what they cost
   for (int out = 0; out <= 12; ++out)
@@ -89,14 +110,7 @@ std::string words(const Stage& stage, const ContactPicture& contact, double pres
   return (pressure < greatest ? "" : "max ") + number(pressure) + (unit.empty() ? "" : " " + unit);
 }
 
-}  // namespace
-
-Point pressure_tip(const Stage& stage, const ContactNode& node) {
-  const Point at = stage.at(node);
-  return at + stage.per_pressure() * std::max(0.0, node.pressure) * stage.view.direction(node.normal);
-}
-
-std::optional<Label> peak_label(const Stage& stage, const ContactPicture& contact, bool within_frame) {
+std::optional<Label> peak_label(const Stage& stage, const Barriers& barriers, const ContactPicture& contact, bool within_frame) {
   double greatest = 0;
   std::vector<const ContactNode*> seen, peaks;
   for (const ContactNode& node : contact.nodes)
@@ -110,7 +124,21 @@ std::optional<Label> peak_label(const Stage& stage, const ContactPicture& contac
   const Point n = stage.view.direction(peak.normal), size = text_extent(text, letters);
   const Point off{n.x * (size.x / 2 + 0.35 * em), n.y * (size.y / 2 + 0.3 * em)};
   const Box wanted = Box::about(pressure_tip(stage, peak) + off, size);
-  return Label{text, letters, stage.plane ? free_place(stage, wanted, n, within_frame) : wanted, pressure_line, 0, n, pressure_tip(stage, peak)};
+  return Label{text, letters, stage.plane ? free_place(stage, barriers, wanted, n, within_frame) : wanted, pressure_line, 0, n, pressure_tip(stage, peak)};
+}
+
+}  // namespace
+
+Point pressure_tip(const Stage& stage, const ContactNode& node) {
+  const Point at = stage.at(node);
+  return at + stage.per_pressure() * std::max(0.0, node.pressure) * stage.view.direction(node.normal);
+}
+
+std::vector<std::optional<Label>> peak_labels(const Stage& stage, bool within_frame) {
+  const Barriers barriers(stage);
+  std::vector<std::optional<Label>> labels;
+  for (const ContactPicture& contact : stage.picture.contacts) labels.push_back(peak_label(stage, barriers, contact, within_frame));
+  return labels;
 }
 
 }  // namespace dotyk::figure

@@ -44,7 +44,9 @@ Bounds pressure_bounds(const Stage& stage) {
   if (!stage.pressures() || !(stage.greatest_pressure > 0)) return bounds;
   const Box& f = stage.frame;
   const double pad = 0.3 * stage.em;
-  for (const ContactPicture& contact : stage.picture.contacts) {
+  const std::vector<std::optional<Label>> labels = peak_labels(stage, false);
+  for (std::size_t k = 0; k < labels.size(); ++k) {
+    const ContactPicture& contact = stage.picture.contacts[k];
     const Box crossed = crossed_sides(stage, contact);
     const auto add = [&](Point p, Point n) {
       const Box& across = std::abs(n.x) < 0.5 ? f : crossed;
@@ -56,7 +58,7 @@ Bounds pressure_bounds(const Stage& stage) {
       if (node.pressure > 0 && stage.shows(stage.at(node))) add(pressure_tip(stage, node) + pad * n, n);
     }
     // Beside the ordinates a label finds room within the frame.
-    if (const std::optional<Label> label = peak_label(stage, contact, false); label && std::abs(label->direction.y) >= std::abs(label->direction.x)) {
+    if (const std::optional<Label>& label = labels[k]; label && std::abs(label->direction.y) >= std::abs(label->direction.x)) {
       const Box box = label->box.grown(pad);
       add({box.left, box.bottom}, label->direction), add({box.right, box.top}, label->direction);
     }

@@ -193,9 +193,9 @@ struct Label {
 // Those that do not overlap one before them.
 void draw_labels(Canvas& canvas, const std::vector<Label>& labels);
 
-// The greatest pressure of a contact in words, beyond its ordinate and clear of
+// Of each contact the greatest pressure in words, beyond its ordinate and clear of
 // outlines and obstacles; none where the contact carries (next to) nothing.
-std::optional<Label> peak_label(const Stage& stage, const ContactPicture& contact, bool within_frame = true);
+std::vector<std::optional<Label>> peak_labels(const Stage& stage, bool within_frame = true);
 // The end of the pressure ordinate of a node.
 Point pressure_tip(const Stage& stage, const ContactNode& node);
 

@@ -327,7 +327,8 @@ Model build(const Scene& scene, problem::Clock& clock, Monitor& monitor, const L
   set_rows(scene, loading, model);
   const int unknowns = model.problem.all_unknowns();
   const bool refined = refined_by_ranks(model);
-  const bool in_slices = slices && (refined || multigrid::slices_pay_for(unknowns)) && slices(model.problem) && (refined || multigrid::starts());
+  constexpr std::size_t kMostBodies = 100;  // what is asked of one body takes a product of all
+  const bool in_slices = slices && (refined || (scene.bodies.size() <= kMostBodies && multigrid::slices_pay_for(unknowns))) && slices(model.problem) && (refined || multigrid::starts());
   if (refined && !in_slices) throw InputError("the stiffness of bodies with refine is with the ranks: dotyk.solver.multigrid{} works there, which dotyk.solve takes by itself; anything else needs one rank");
   if (in_slices) monitor.phase(text("assembling (", unknowns, " unknowns)")), assemble_slices(model);
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {

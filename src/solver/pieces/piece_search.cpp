@@ -21,7 +21,9 @@ using problem::CondensedProblem;
 using problem::Problem;
 using Pair = PieceProgramme::Pair;
 
-constexpr int kMostRows = 80, kMostProgrammes = 4000;
+constexpr int kMostRows = 80;
+/// Of all programmes, in numbers of their matrix that least-squares steps look at: some seconds.
+constexpr double kMostWork = 1.2e10;
 constexpr std::size_t kProbed = 3;     // broken pairs of a node that are tried for one with a single choice
 constexpr double kSolved = 1e-9;       // residual of a feasible point, relative to the right side
 constexpr double kAngle = 1e-12;       // tolerance of bounded_least_squares()
@@ -39,6 +41,7 @@ class DepthFirstSearch {
     const std::optional<Pairs> conflict = visit(solved({on_.low, on_.high, std::vector<int>(on_.low.size(), -1)}, Vector()));
     if (conflict) out_.verdict = PieceSearch::Verdict::none;
     else if (out_.verdict == PieceSearch::Verdict::undecided && out_.lambda.size() > 0) out_.verdict = PieceSearch::Verdict::near;
+    out_.given_up = !conflict && work_ >= kMostWork;
     return std::move(out_);
   }
 
@@ -55,7 +58,7 @@ class DepthFirstSearch {
     Pairs conflict{};         ///< the pairs whose choices exclude it
   };
 
-  bool over() const { return out_.verdict != PieceSearch::Verdict::undecided || out_.programmes >= kMostProgrammes || monitor_.stop(); }
+  bool over() const { return out_.verdict != PieceSearch::Verdict::undecided || work_ >= kMostWork || monitor_.stop(); }
 
   Node solved(Node node, const Vector& start) {
     ++out_.programmes;
@@ -64,14 +67,17 @@ class DepthFirstSearch {
     return node;
   }
 
-  void solve(Node& node, const Vector& start) const {
+  void solve(Node& node, const Vector& start) {
+    double steps = 20.0 * static_cast<double>(on_.A.cols());
     try {
       node.point = algebra::bounded_least_squares(on_.A, on_.b, node.low, node.high, kAngle, start);
+      steps = node.point.steps;
     } catch (const std::runtime_error&) {  // its active sets repeat
       auto fitted = algebra::cone_least_squares(on_.transposed, on_.b, {{node.low.begin(), node.low.end()}, {node.high.begin(), node.high.end()}, {}}, 0.1 * kSolved);
       node.point.x = std::move(fitted.x);
       node.point.residual = on_.b - on_.A * node.point.x;
     }
+    work_ += (steps + static_cast<double>(on_.A.rows())) * static_cast<double>(on_.A.size());
     node.end = excluded(node) ? End::excluded : node.point.residual.norm() <= kSolved * on_.b.norm() ? End::point : End::unknown;
   }
 
@@ -181,6 +187,7 @@ class DepthFirstSearch {
   const PieceProgramme& on_;
   const Attempt& attempt_;
   Monitor& monitor_;
+  double work_ = 0;
   PieceSearch out_;
 };
 

@@ -18,6 +18,7 @@ struct PieceSearch {
   enum class Verdict { none, found, near, undecided };
   Verdict verdict = Verdict::undecided;
   int programmes = 0;            ///< linear ones that were solved
+  bool given_up = false;         ///< undecided after some seconds' work
   algebra::Vector lambda, alpha; ///< the solution, where one is found; where it is near, of the polygons
 };
 
@@ -26,7 +27,7 @@ using Attempt = std::function<bool(algebra::Vector& lambda, algebra::Vector& alp
 
 /// `attempt` is made from the point of each programme: it may find a solution long before the search has come to its pieces.
 /// In space discs of friction are replaced by polygons around them, and slip is along the force up to the polygon's angle: the search then
-/// proves that there is no solution, or finds where to begin another method from. Undecided as well where a law does not tell its springs, and beyond so many rows or programmes.
+/// proves that there is no solution, or finds where to begin another method from. Undecided as well where a law does not tell its springs, beyond so many rows, and after so much work.
 PieceSearch search_pieces(const problem::Problem& problem, const problem::CondensedProblem& condensed, const Attempt& attempt,
                           Monitor& monitor);
 

@@ -217,7 +217,7 @@ std::string search(RowIteration& iteration, double tol) {
       refuse_unbearable(*motion, programmes + " exclude all states of contact, stick and slip");
     return text("; ", programmes, " exclude all states of contact, stick and slip: there is no solution");
   }
-  if (found.verdict == PieceSearch::Verdict::undecided) return found.programmes == 0 ? "" : text("; tried a search of pieces, ", programmes);
+  if (found.verdict == PieceSearch::Verdict::undecided) return found.programmes == 0 ? "" : text(found.given_up ? "; gave up a search of pieces after " : "; tried a search of pieces, ", programmes);
   const bool exact = found.verdict == PieceSearch::Verdict::found;
   iteration.grant(exact ? 1 : kFromNear);
   iteration.move_to({found.lambda, found.alpha});
