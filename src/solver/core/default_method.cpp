@@ -21,11 +21,21 @@ namespace {
 
 /// Below so many unknowns nothing takes long enough to be worth an estimate.
 constexpr int kLarge = 8000;
+/// Bodies of fewer unknowns on an average are too small to be coarsened.
+constexpr int kLeastBody = 500;
 /// Multigrid is chosen where factors are estimated to take kFaster times as long, since its number of iterations is less
 /// certain. In a history, where one factor serves all steps, they must take kFactorIsKept times as long.
 constexpr double kFaster = 1.4, kFactorIsKept = 10;
 constexpr double kOpening = 0.2;  ///< seconds that the library of multigrid takes to open
 constexpr double kBeside = 1.25;  ///< other arrays take a quarter of what factors take
+
+/// Steps of active sets, of which each takes a factor where rows are held on all unknowns.
+constexpr double kHeldSteps = 8;
+
+/// Operations of a factor, measured by scripts/studies/crossing.lua.
+double flops_of_factor(double unknowns, bool space, bool quadratic) {
+  return space ? (quadratic ? 10 : 7.5) * unknowns * unknowns : (quadratic ? 130 : 80) * std::pow(unknowns, 1.5);
+}
 
 struct Cost {
   double seconds, bytes;
@@ -39,7 +49,7 @@ struct Estimate {
 Estimate estimate(const problem::Problem& problem, const Choice& so_far) {
   // Constants measured by scripts/studies/crossing.lua. n: unknowns; m: contact points with d components each. A factor takes 7.5 n² operations in space (order 2:
   // 10 n²) and 80 n^1.5 in the plane (order 2: 130 n^1.5). Frictionless contact adds 3 (dm)³ for dense matrices, or takes a factor a step. Ordering grows with n.
-  constexpr double kFlops = 1.25e10, kSteps = 8, kFriction = 1.5;
+  constexpr double kFlops = 1.25e10, kFriction = 1.5;
   constexpr double kMultigrid[2][2][2] = {{{2.2e-6, 7e-6}, {4.8e-6, 9.6e-6}}, {{4e-6, 1.6e-5}, {4.8e-5, 4.8e-5}}};  // seconds an unknown: plane, space; order 1, 2; meshes, aggregates
   const bool space = problem.blocks.front().coarse.dimension == 3;
   const bool geometric = problem::coarser_meshes(problem) > 1, linear = all_linear(problem), friction = !problem.friction.empty();
@@ -50,14 +60,14 @@ Estimate estimate(const problem::Problem& problem, const Choice& so_far) {
   const double n = problem.unknowns(), m = near * (1 - tangential / std::max(problem.rows(), 1)) * !linear;
   const double solves = linear ? 0.6 : friction ? 1.6 : 1;               // times as many iterations
   const double several_bodies = problem.blocks.size() > 1 ? 2 : 1;       // times the work of one
-  const auto factor_of = [&](double size) { return space ? (quadratic ? 10 : 7.5) * size * size : (quadratic ? 130 : 80) * std::pow(size, 1.5); };
+  const auto factor_of = [&](double size) { return flops_of_factor(size, space, quadratic); };
   const auto bytes_of = [&](double size) { return space ? 200 * std::pow(size, 4.0 / 3) : 60 * size * std::log2(std::max(size, 2.0)); };
   double factor = 0, bytes = problem::dense_bytes(near), largest = 0;
   const auto add = [&](double size) { factor += factor_of(size), bytes += bytes_of(size), largest = std::max(largest, bytes_of(size)); };
   const bool glued = problem.rows() > 0 && linear;  // else each body has a factor of its own
   if (glued) add(n);
   else for (const problem::Block& block : problem.blocks) add(block.size());
-  const double rows = (space ? 81 : 24) * m * m * m, each = friction ? INFINITY : kSteps * factor_of(n);
+  const double rows = (space ? 81 : 24) * m * m * m, each = kHeldSteps * factor_of(n);
   const double factors = (space ? 6e-6 : 1e-6) * n + std::min(factor + rows, each) / kFlops;
   return {{factors * (friction ? kFriction : 1), bytes},
           {kOpening + kMultigrid[space][quadratic][!geometric] * n * solves * several_bodies, (space ? 1000 : 500) * (geometric ? 1 : 1.8) * (quadratic ? 2.5 : 1) * n},
@@ -74,7 +84,7 @@ void weigh(const problem::Problem& problem, double memory, const problem::Conden
   const Estimate e = estimate(problem, choice);
   const bool countable = e.largest <= algebra::Cholesky::kMostBytes;
   const bool fit = (kept && kept->holds()) || kBeside * e.factors.bytes <= memory;
-  const bool possible = multigrid::available() && tells_springs(problem);
+  const bool possible = multigrid::available() && tells_springs(problem) && problem.unknowns() >= kLeastBody * std::ssize(problem.blocks);
   const bool faster = e.factors.seconds > (kept ? kFactorIsKept : kFaster) * e.multigrid.seconds;
   choice.factors_fit = countable && fit;
   if (choice.factors_fit)
@@ -102,6 +112,15 @@ bool rows_stand_apart(const problem::Problem& problem) {
   return std::count(own.begin(), own.end(), 1) >= kNearly * problem.rows();
 }
 
+/// Is it less work to hold rows on all unknowns than to condense them to dense matrices?
+bool better_held(const problem::Problem& problem) {
+  constexpr int kFew = 150;
+  if (problem.rows() < kFew || !tells_springs(problem)) return false;
+  if (all_linear(problem)) return rows_stand_apart(problem);
+  const problem::CoarseMeshes& mesh = problem.blocks.front().coarse;
+  return kHeldSteps * flops_of_factor(problem.unknowns(), mesh.dimension != 2, mesh.order == 2) < 3 * std::pow(problem.rows(), 3);
+}
+
 By on_condensed_rows(const problem::Problem& problem) {
   return problem.rows() == 0 ? By::linear : problem.friction.empty() && tells_springs(problem) ? By::pdas : By::newton;
 }
@@ -109,13 +128,9 @@ By on_condensed_rows(const problem::Problem& problem) {
 }  // namespace
 
 Choice by_factors(const problem::Problem& problem, const problem::Condenser* kept) {
-  constexpr int kMany = 3000, kShare = 10, kFew = 150;
   Choice choice{on_condensed_rows(problem)};
-  if (kept) return choice;
-  const bool too_many = problem.rows() > kMany && kShare * problem.rows() > problem.unknowns();
-  const auto one_branch = [&] { return problem.rows() >= kFew && all_linear(problem) && rows_stand_apart(problem); };
-  if (choice.by == By::pdas && (too_many || one_branch())) choice.by = By::held;
-  choice.near = rows_that_may_close(problem);
+  if (better_held(problem) && !(kept && all_linear(problem))) choice.by = By::held;
+  if (!kept) choice.near = rows_that_may_close(problem);
   return choice;
 }
 
@@ -194,12 +209,13 @@ Result solve_chosen(const problem::Problem& problem, const Choice& choice, Begin
     if (auto result = run_turned(problem, from, monitor)) return *std::move(result);
   if (choice.by != By::held && choice.by != By::multigrid) return run_condensed(problem, choice.by, choice, std::move(from), monitor);
   Result before;
+  const Stopwatch watch;
   try {
     before = run(problem, choice.by, {from.start, nullptr, from.from}, monitor, choice.most_iterations);
     if (before.converged || !choice.factors_fit || monitor.stop()) return before;
   } catch (const NotSolved& error) {
     if (!choice.factors_fit) throw;
-    before.reason = error.what();
+    before.reason = error.what(), before.clock.iterate = watch.seconds();
   }
   const std::string tried = "; before, on all unknowns: " + before.reason;
   try {

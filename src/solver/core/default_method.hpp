@@ -26,9 +26,9 @@ struct Choice {
 };
 
 /// The choice without multigrid. `held` where all of at least 150 rows are linear, as those of glue, one factorisation
-/// in all, and where rows are more than 3000 and more than a tenth of the unknowns, as on strips that touch all along: a
-/// dense factor takes the cube of their number then, sparse ones of a thin body far less. `kept`: shared by the steps of
-/// a history, whose rows are all condensed once; null: there is one step.
+/// in all, and where the cube of at least 150 rows is more work than a sparse factor of all unknowns a step, as on strips
+/// that touch all along, and of many small bodies. `kept`: shared by the steps of a history, whose rows are all condensed
+/// once, where condensing is less work or all are linear; null: there is one step.
 Choice by_factors(const problem::Problem& problem, const problem::Condenser* kept = nullptr);
 
 /// Large solid bodies are solved by multigrid, where it is installed, if it promises to be faster than factors, or if
