@@ -29,7 +29,7 @@ ActiveSetStart guess(const QuadraticProgram& p, const Scaled& scaled, const Acti
   const bool small = p.unknowns() + p.rows() <= 200;
   if (!settings.working.empty()) g.working = settings.working;
   else if (settings.start == ActiveSet::Start::interior_point || (settings.start == ActiveSet::Start::automatic && !small)) {
-    predicted = solve(p, InteriorPoint{.exact = false}, monitor);
+    predicted = solve(p, InteriorPoint{}, monitor);
     if (predicted.status == Status::infeasible || predicted.status == Status::unbounded || !predicted.x.allFinite()) return g;
     g.working = predicted.working;
     g.x = predicted.x.cwiseQuotient(scaled.column);
@@ -52,9 +52,8 @@ bool solved_by_zeros(const QuadraticProgram& p, const ActiveSet& settings, Resul
 
 /// Far away rounding hides that rows contradict one another: is there any feasible point?
 void doubt(const QuadraticProgram& p, const ActiveSet& settings, Monitor& monitor, Result& result) {
-  const double violation = result.status == Status::solved ? residuals(p, result.x, result.y).feasibility : 0;
-  const bool violated = violation > kFeasible;
-  if (violation > settings.tol && solved_by_zeros(p, settings, result)) return;
+  const bool violated = result.status == Status::solved && residuals(p, result.x, result.y).feasibility > kFeasible;
+  if (violated && solved_by_zeros(p, settings, result)) return;
   if (!violated && result.status != Status::unbounded) return;
   const QuadraticProgram nearest = nearest_point(p);
   ActiveSet one_by_one = settings;
@@ -74,7 +73,7 @@ void doubt_stationarity(const QuadraticProgram& p, Result& result) {
   if (left <= kStationary * (1 + peak(p.q) + peak(p.A.cwiseAbs().transpose() * result.y.cwiseAbs()))) return;
   const Vector along = result.x / peak(result.x);
   if (proves_unbounded(p, along)) result.end(Status::unbounded, kFallsForEver, along);
-  else result.end(Status::stopped, kBeyondDigits);
+  else result.end(Status::stopped, "the unknowns have grown beyond the digits of the gradient");
 }
 
 /// ": rows 1, 4 and 7" of a proof of infeasibility.
@@ -106,7 +105,7 @@ Result attempt(const QuadraticProgram& program, const Scaled& scaled, const Acti
   doubt_stationarity(scaled.program, result);
   doubt(scaled.program, settings, monitor, result);
   scaled.take_back(result);
-  if (result.status == Status::infeasible) result.reason += name_rows(result.direction) + besides(result);
+  if (result.status == Status::infeasible) result.reason += name_rows(result.direction);
   if (result.status == Status::solved) put_on_bounds(program, result);
   result.predictor_iterations = predicted.iterations;
   result.factorisations += predicted.factorisations;

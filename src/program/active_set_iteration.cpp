@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <unordered_set>
-#include <utility>
 
 #include "base/stopwatch.hpp"
 #include "base/text.hpp"
@@ -18,7 +17,6 @@ constexpr double kHeavier = 100;     ///< factor on the weight of violations
 constexpr double kHeaviest = 100;    ///< on its first value, before violations alone are minimised
 constexpr double kFar = 1e9;         ///< a step this much longer than x runs along the kernel
 constexpr double kCurved = 1e-12;    ///< curvature along a direction, relative to its rounding terms
-constexpr double kNothing = 1e-14;   ///< entries of a direction that are its rounding, beside the greatest
 constexpr double kSmall = 1e-6;      ///< greatest correction of a solution, relative to x
 constexpr double kStill = 1e-11;     ///< a step this much shorter than x is none
 constexpr int kRounds = 50;          ///< in which the whole working set changes at once, at most
@@ -170,7 +168,6 @@ class ActiveSetRun {
     if (result_.iterations >= settings_.max_iterations)
       return finish(Status::stopped, text("no end within ", settings_.max_iterations, " iterations"));
     const bool elastic = rows_.any_violated();
-    const Vector before = std::exchange(along_, {});
     if (!elastic && !objective_) objective_ = true, forget();
     const Vector g = gradient();
     auto s = solve_kkt(g);
@@ -191,12 +188,7 @@ class ActiveSetRun {
     }
     double whole = s.consistent && (objective_ || restoring_) ? 1 : INFINITY;
     if (!s.consistent) {
-      if (before.size()) {  // conjugate to it: else they zigzag
-        const Vector Pb = times(p_.P, before);
-        s.p -= s.p.dot(Pb) / before.dot(Pb) * before;
-      }
       s.p /= peak(s.p);
-      s.p = (s.p.array().abs() <= kNothing).select(0.0, s.p);
       fall = -g.dot(s.p);
       if (!(fall > settings_.tol * (1 + peak(g)))) {  // stationary up to the tolerance on multipliers
         y_ = s.y;
@@ -213,23 +205,19 @@ class ActiveSetRun {
   void advance(const WorkingKkt::Solution& s, double whole, bool elastic) {
     const double still = kStill * (1 + peak(x_));
     const auto meeting = rows_.meeting(x_, s.p, cautious_, many());
-    // Curvature along a kernel direction may be rounding, as a row may be that it meets far away; the proof looks at neither.
-    const bool proved = !s.consistent && objective_ && proves_unbounded(p_, s.p);
-    const bool meets = std::isfinite(meeting.step) && !(proved && meeting.step > kFar * (1 + peak(x_)));
-    if ((proved || !std::isfinite(whole)) && !meets) {
-      result_.falls = result_.falls || proved;
+    // Curvature along a kernel direction may be rounding; the proof does not look at it.
+    const bool endless = !std::isfinite(whole) || (!s.consistent && objective_ && !elastic && proves_unbounded(p_, s.p));
+    if (endless && !std::isfinite(meeting.step)) {
       if (elastic) return heavier();
       result_.direction = s.p;
-      return proved ? finish(Status::unbounded, kFallsForEver) : finish(Status::stopped, kBeyondDigits);
+      return finish(Status::unbounded, kFallsForEver);
     }
     const double length = std::min(whole, meeting.step);
     x_ += length * s.p;
     if (length * peak(s.p) > still) forget();
     if (whole <= meeting.step) {
       y_ = s.y;
-      if (s.consistent) return stationary(elastic, s.p);
-      along_ = s.p;
-      return report(0, s.p);
+      return s.consistent ? stationary(elastic, s.p) : report(0, s.p);
     }
     engage(meeting);
     for (int r : meeting.rows) kkt_.change(r, true);
@@ -276,8 +264,7 @@ class ActiveSetRun {
     remember();
   }
 
-  /// Violations are left where nothing else is wrong: they are made dearer; at last, or where the objective falls for ever at any
-  /// price, they alone count.
+  /// Violations are left where nothing else is wrong: they are made dearer; at last they alone count.
   void heavier() {
     forget();
     if (rows_.arrived(p_.A * x_)) {
@@ -292,7 +279,7 @@ class ActiveSetRun {
       y_ = exact.solve(-(p_.A.transpose() * charge), Vector::Zero(p_.rows()), y_).y;
       result_.direction = y_ + charge;
       finish(Status::infeasible, "the rows contradict one another");
-    } else if (!result_.falls && weight_ < kHeaviest * first_weight_) {
+    } else if (weight_ < kHeaviest * first_weight_) {
       weight_ *= kHeavier;
     } else {
       objective_ = false;
@@ -335,7 +322,6 @@ class ActiveSetRun {
   std::unordered_set<std::size_t> seen_;  ///< working sets since the objective last fell
   bool finished_ = false, objective_ = true, cautious_ = false, blocked_ = false, zigzag_ = false;
   bool restoring_ = false;  ///< rows at work have drifted from their limits
-  Vector along_;           ///< the step before, where it went to the end of a direction of little curvature
   std::vector<int> left_;  ///< how often each row has left among many
   double scale_, first_weight_, weight_ = 1;
 };

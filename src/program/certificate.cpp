@@ -63,27 +63,6 @@ QuadraticProgram nearest_point(const QuadraticProgram& p) {
   return out;
 }
 
-QuadraticProgram steepest_fall(const QuadraticProgram& p) {
-  const int n = p.unknowns(), m = p.rows();
-  QuadraticProgram out = nearest_point(p);
-  out.q = p.q;
-  algebra::Triplets entries;
-  for (int j = 0; j < n; ++j)
-    for (SparseMatrix::InnerIterator it(p.P, j); it; ++it) {
-      entries.emplace_back(it.row(), j, it.value());
-      if (it.row() != j) entries.emplace_back(j, it.row(), it.value());
-    }
-  for (int r = 0; r < m; ++r)
-    for (SparseRows::InnerIterator it(p.A, r); it; ++it) entries.emplace_back(n + r, it.col(), it.value());
-  out.A = algebra::from_triplets<SparseRows>(n + m, n, entries);
-  out.low = out.high = Vector::Zero(n + m);
-  for (int r = 0; r < m; ++r) {
-    if (!std::isfinite(p.low[r])) out.low[n + r] = -INFINITY;
-    if (!std::isfinite(p.high[r])) out.high[n + r] = INFINITY;
-  }
-  return out;
-}
-
 Bracket bracket(const QuadraticProgram& p, const Vector& x, const Vector& y) {
   const Eigen::SparseMatrix<Long> P = p.P.cast<Long>();
   const Eigen::SparseMatrix<Long, Eigen::RowMajor> A = p.A.cast<Long>();

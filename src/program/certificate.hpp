@@ -14,17 +14,9 @@ bool proves_infeasible(const QuadraticProgram& program, const Vector& y, double 
 bool proves_unbounded(const QuadraticProgram& program, const Vector& d, double tolerance = 1e-8);
 
 inline constexpr const char* kFallsForEver = "the objective falls for ever along a direction that meets no row";
-inline constexpr const char* kBeyondDigits = "the unknowns have grown beyond the digits of the gradient";
-
-/// "; besides, the objective …" where Result::falls, else "".
-inline std::string besides(const Result& result) { return result.falls ? std::string("; besides, ") + kFallsForEver : ""; }
 
 /// minimise ½|x|² over the same rows: never unbounded, infeasible where the program is.
 QuadraticProgram nearest_point(const QuadraticProgram& program);
-
-/// minimise ½|d|² + qᵀd over the directions d with Pd = 0 that leave no finite limit behind: d is zero where the objective
-/// falls for ever along none of them.
-QuadraticProgram steepest_fall(const QuadraticProgram& program);
 
 /// Between which values the optimum lies, from x and y alone: no trust in the method that found them.
 /// Summed in long double (64 bits of mantissa on x86).

@@ -17,8 +17,8 @@ namespace {
 
 /// Residual at which iterates that do not get better are still taken for the solution, relative to `tol`.
 constexpr double kEnough = 100;
-/// Steps of active sets that end it, at least, and for each of its iterations: so many cost no more than these.
-constexpr int kSteps = 200, kStepsEach = 10;
+/// Unknowns and rows up to which active sets end it: exactly, in next to no time.
+constexpr int kEndsExactly = 200;
 /// Iterations without a better one before it is called so.
 constexpr int kPatience = 15;
 /// The same where all that is asked for yet is `fine`.
@@ -199,33 +199,25 @@ Result attempt(const Scaled& scaled, const InteriorPoint& settings, Monitor& mon
     result = run(scaled.program, inner, 1000, result.iterations, monitor);
     result.reason += ", at the second start";
   }
-  inner.fine = nullptr;
   if (result.status == Status::unbounded) {  // or without any point, which shows where the objective is strictly convex
+    inner.fine = nullptr;
     const Result nearest = run(nearest_point(scaled.program), inner, 30, result.iterations, monitor);
     result.iterations = nearest.iterations;
-    result.falls = nearest.status == Status::infeasible;
-    if (result.falls) result.end(nearest.status, nearest.reason, nearest.direction);
-  } else if (result.status == Status::infeasible) {
-    const Result fall = run(steepest_fall(scaled.program), inner, 30, result.iterations, monitor);
-    result.iterations = fall.iterations;
-    result.falls = proves_unbounded(scaled.program, fall.x);
+    if (nearest.status == Status::infeasible) result.end(nearest.status, nearest.reason, nearest.direction);
   }
-  result.reason += besides(result);
   scaled.take_back(result);
   return result;
 }
 
-/// Active sets from this result on. Within `tol` of the least objective unknowns may be off by the root of it: those of
-/// little energy, and those whose multipliers are small beside others. Returns `from` if that is no worse.
+/// Active sets from this result on. They find unknowns of little energy, for which slack and multiplier of a row differ only far below tol.
+/// Returns `from` if that is no worse.
 Result by_active_sets(const QuadraticProgram& program, const Result& from, Monitor& monitor) {
   ActiveSet settings;
   settings.start = ActiveSet::Start::cold;
   settings.working = from.working, settings.point = from.x;
-  settings.max_iterations = std::max(kSteps, kStepsEach * from.iterations);
   Result result = solve(program, settings, monitor);
   const auto off = [&](const Result& r) { return imbalance(program, r.x, r.y, Rounding::own); };
-  if (result.status == Status::stopped) return from;
-  if (from.status == Status::solved && (result.status != Status::solved || off(result) > off(from))) return from;
+  if (result.status != Status::solved || (from.status == Status::solved && off(result) > off(from))) return from;
   result.iterations += from.iterations, result.factorisations += from.factorisations;
   result.reason = from.reason + "; then by active sets: " + result.reason;
   return result;
@@ -259,9 +251,8 @@ Result solve(const QuadraticProgram& program, const InteriorPoint& settings, Mon
       }
       hidden = off(result, Rounding::of_greatest) > kHidden;
     }
-    const bool exact = settings.exact && !settings.fine && !monitor.stop();
-    const bool improvable = result.status == Status::solved || result.status == Status::stopped;
-    if (hidden || (exact && improvable)) result = by_active_sets(program, result, monitor);
+    const bool few = !settings.fine && !monitor.stop() && program.unknowns() + program.rows() <= kEndsExactly;
+    if (hidden || (few && (result.status == Status::solved || result.status == Status::stopped))) result = by_active_sets(program, result, monitor);
     if (hidden && off(result, Rounding::of_greatest) > kHidden) result.end(Status::stopped, kHiddenReason);
   }
   measure(program, result);

@@ -10,8 +10,6 @@ namespace dotyk::program {
 struct InteriorPoint {
   double tol = 1e-9;  ///< on residuals and gap, relative, in the scaled program
   int max_iterations = 200;
-  /// Without `fine`, active sets have the last word: on which limits rows stand, and exactly.
-  bool exact = true;
   /// Asked of iterates (x, y as of Result) that are within tol: where it says no, the method goes on as long as it gets nearer.
   std::function<bool(const Vector& x, const Vector& y)> fine = nullptr;
 };

@@ -68,7 +68,6 @@ struct Result {
   /// unbounded: n, along it the objective falls for ever; infeasible: m, weights of the rows whose sum
   /// contradicts itself; not convex: n, xᵀPx < 0.
   Vector direction;
-  bool falls = false;  ///< the objective is known to fall for ever along a direction that meets no row, infeasible or not
   double objective = 0;
   Residuals residual;
   int iterations = 0;

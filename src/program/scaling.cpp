@@ -2,10 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
-#include <vector>
 
-#include "algebra/direct/quasi_definite.hpp"
 #include "base/moderate.hpp"
 
 namespace dotyk::program {
@@ -22,60 +19,6 @@ void visit_entries(Matrix& a, const Visit& visit) {
 void divide(Vector& factor, const Vector& largest) {
   for (int i = 0; i < factor.size(); ++i)
     if (largest[i] > 0) factor[i] /= std::sqrt(largest[i]);
-}
-
-/// Is P positive definite by more than rounding, whatever the units of its unknowns?
-bool strictly_convex(const SparseMatrix& lower) {
-  constexpr double kRounding = 1e-9;
-  SparseMatrix less = lower;
-  if (less.rows() > 0 && !(Vector(less.diagonal()).minCoeff() > 0)) return false;
-  for (Eigen::Index j = 0; j < less.rows(); ++j) less.coeffRef(j, j) *= 1 - kRounding;
-  algebra::QuasiDefinite factor(less);
-  return factor.factor(less) && factor.negative_pivots() == 0;
-}
-
-/// exp(s_i) of least Σ (log|k_ij| + s_i + s_j)² over the entries of the symmetric K = [P Aᵀ q; A 0 b; qᵀ bᵀ 0], b all finite
-/// limits (Curtis and Reid 1972): scaled by them the entries are as near to 1 as they can be. Units of unknowns, rows and
-/// the objective make no difference to what results. By conjugate gradients; the matrix of the normal equations has the
-/// pattern of K, and on the diagonal the number of entries in the row besides.
-Vector curtis_reid(const QuadraticProgram& p) {
-  constexpr double kEnough = 1e-3;
-  constexpr int kMost = 50;
-  const int n = p.unknowns(), m = p.rows();
-  std::vector<Eigen::Triplet<double>> entries;  // of the lower triangle, their logarithms
-  const auto add = [&](Eigen::Index i, Eigen::Index j, double value) {
-    if (value != 0 && std::isfinite(value)) entries.emplace_back(static_cast<int>(i), static_cast<int>(j), std::log(std::abs(value)));
-  };
-  visit_entries(p.P, add);
-  visit_entries(p.A, [&](auto i, auto j, double value) { add(n + i, j, value); });
-  for (int j = 0; j < n; ++j) add(n + m, j, p.q[j]);
-  for (int i = 0; i < m; ++i) add(n + m, n + i, p.low[i]), add(n + m, n + i, p.high[i]);
-  Vector count = Vector::Zero(n + m + 1), s = count, r = count;
-  for (const auto& e : entries)
-    for (const int i : {e.row(), e.col()}) {
-      r[i] -= e.value(), count[i] += 1;
-      if (e.row() == e.col()) break;
-    }
-  const auto times = [&](const Vector& v) {
-    Vector out = count.cwiseProduct(v);
-    for (const auto& e : entries) {
-      out[e.row()] += v[e.col()];
-      if (e.row() != e.col()) out[e.col()] += v[e.row()];
-    }
-    return out;
-  };
-  count = count.cwiseMax(1);
-  Vector d = r.cwiseQuotient(count);
-  double rho = r.dot(d);
-  for (int k = 0; k < kMost && peak(Vector(r.cwiseQuotient(count))) > kEnough; ++k) {
-    const Vector Kd = times(d);
-    const double alpha = rho / d.dot(Kd);
-    s += alpha * d, r -= alpha * Kd;
-    const Vector z = r.cwiseQuotient(count);
-    const double before = std::exchange(rho, r.dot(z));
-    d = z + rho / before * d;
-  }
-  return s.array().exp();
 }
 
 }  // namespace
@@ -96,11 +39,6 @@ double objective_unit(const QuadraticProgram& p) {
 Scaled scale(const QuadraticProgram& p) {
   const int n = p.unknowns(), m = p.rows();
   Scaled s{p, Vector::Ones(n), Vector::Ones(m), 1 / objective_unit(p)};
-  if (!strictly_convex(p.P)) {
-    const Vector unit = curtis_reid(p);
-    const double all = unit[n + m];
-    s.column = unit.head(n) / all, s.row = unit.segment(n, m) * all, s.cost = all * all;
-  }
   QuadraticProgram& t = s.program;
   const auto apply = [&] {
     t.P = p.P, t.A = p.A;

@@ -21,8 +21,6 @@ struct Scaled {
 /// The greatest entry of P and q where that is beyond 1e±6, else 1: divided by it, an objective is of numbers like 1.
 double objective_unit(const QuadraticProgram& program);
 
-/// Curtis and Reid's scaling (1972) where P is singular, so that limits and the objective tell the units of motions
-/// without curvature; then
 /// Ruiz's equilibration (2001) of the KKT matrix [P Aᵀ; A 0]: ten times every row and column is
 /// divided by the root of its largest entry; then the objective is divided by its gradient's size. Before that, by its unit: what
 /// is beyond all rows' size would make them nothing.

@@ -68,34 +68,6 @@ TEST_CASE("unbounded programs are found, with the direction") {
   }
 }
 
-TEST_CASE("programs without a point whose objective falls for ever as well: both are said, after few iterations") {
-  Random random(315);
-  Monitor quiet;
-  const auto check = [&](const program::QuadraticProgram& p) {
-    for (const auto& r : {program::solve(p, test::one(), quiet), program::solve(p, test::many(), quiet),
-                          program::solve(p, program::InteriorPoint{}, quiet)}) {
-      INFO(r.reason);
-      REQUIRE(r.status == Status::infeasible);
-      CHECK(r.falls);
-      CHECK(r.reason.find(program::kFallsForEver) != std::string::npos);
-      CHECK(r.iterations < 60);
-    }
-  };
-  check(test::quadratic(DenseMatrix::Zero(2, 2), Vector{{-1, 0}}, DenseMatrix{{0, 1}, {0, 1}}, Vector{{1, -INFINITY}}, Vector{{INFINITY, 0}}));
-  for (int trial = 0; trial < 100; ++trial) {
-    // Beside an unknown that nothing holds; then in other coordinates.
-    const int n = 2 + trial % 7;
-    const auto p = make(random, Kind::contradictory, n, 3 + trial % 5, trial % (n + 1));
-    DenseMatrix P = DenseMatrix::Zero(n + 1, n + 1), A = DenseMatrix::Zero(p.rows(), n + 1);
-    P.topLeftCorner(n, n) = test::full(p.P), A.leftCols(n) = p.A;
-    Vector q(n + 1);
-    q << p.q, -1;
-    const DenseMatrix turned = random.matrix(n + 1, n + 1);
-    check(test::quadratic(P, q, A, p.low, p.high));
-    check(test::quadratic(turned.transpose() * P * turned, turned.transpose() * q, A * turned, p.low, p.high));
-  }
-}
-
 TEST_CASE("the methods agree on programs of unknown kind") {
   Random random(313);
   Monitor quiet;

@@ -97,20 +97,22 @@ class Iteration {
     for (int j = 0; j < A_.cols(); ++j)
       if (place_[j] == Place::free) columns_.add(j);
     settle();
-    for (Eigen::Index released = 0; released <= 20 * A_.cols() + 100; ++released) {
-      const int entering = choose(residual_);
-      if (entering < 0) return {x_, columns_.beyond(residual_), steps_};
-      const double before = residual_.norm();
+    Vector residual = b_ - A_ * x_;
+    for (int steps = 0; steps <= 20 * A_.cols() + 100; ++steps) {
+      const int entering = choose(residual);
+      if (entering < 0) return {x_, columns_.beyond(residual), steps};
       place_[entering] = Place::free;
       columns_.add(entering);
       settle();
+      const Vector next = b_ - A_ * x_;
       // Releasing a variable that rounding (or a column nearly parallel to a free one) made attractive
       // changes next to nothing: not again before another one has.
-      const double nothing = std::max(1e-9 * before, std::numeric_limits<double>::epsilon() * b_.norm());
-      if (residual_.norm() < before - nothing)
+      const double nothing = std::max(1e-9 * residual.norm(), std::numeric_limits<double>::epsilon() * b_.norm());
+      if (next.norm() < residual.norm() - nothing)
         std::fill(idle_.begin(), idle_.end(), 0);
       else
         idle_[entering] = 1;
+      residual = next;
     }
     throw std::runtime_error("bounded least squares: no end within 20 steps a column");
   }
@@ -132,13 +134,11 @@ class Iteration {
     return best;
   }
 
-  /// Least squares over the free variables; those that would leave their bounds stop there. On the way the residual is updated by what moves.
+  /// Least squares over the free variables; those that would leave their bounds stop there.
   void settle() {
-    residual_ = b_ - A_ * x_;
     while (!columns_.all().empty()) {
       const std::vector<int>& free = columns_.all();
-      const Vector step = columns_.fit(residual_);
-      ++steps_;
+      const Vector step = columns_.fit(b_ - A_ * x_);
       double length = 1;
       Eigen::Index blocking = -1;
       for (Eigen::Index k = 0; k < step.size(); ++k) {
@@ -149,11 +149,10 @@ class Iteration {
           blocking = k;
         }
       }
-      for (Eigen::Index k = 0; k < step.size(); ++k) x_[free[k]] += length * step[k], residual_ -= length * step[k] * A_.col(free[k]);
-      if (blocking < 0) break;
+      for (Eigen::Index k = 0; k < step.size(); ++k) x_[free[k]] += length * step[k];
+      if (blocking < 0) return;
       bind(blocking);
     }
-    residual_ = b_ - A_ * x_;
   }
 
   /// The variable stops at its bound and its column leaves the factorisation. Free columns that depended on it may now be added.
@@ -171,8 +170,7 @@ class Iteration {
   const DenseMatrix& A_;
   const Vector &b_, &low_, &high_;
   double tolerance_;
-  Vector x_, residual_;  ///< b − A x
-  int steps_ = 0;
+  Vector x_;
   std::vector<Place> place_;
   std::vector<char> idle_;
   Columns columns_;  ///< of the free variables, without linearly dependent ones

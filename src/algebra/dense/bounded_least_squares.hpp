@@ -7,7 +7,7 @@ namespace dotyk::algebra {
 struct BoundedLeastSquares {
   Vector x;          ///< within its bounds
   Vector residual;   ///< b − A x, orthogonal to the columns of free x
-  int steps = 0;     ///< least-squares problems over free x
+  int steps = 0;
 };
 
 /// Minimises ‖A x − b‖ subject to low ≤ x ≤ high (±∞ allowed), for an A with few rows and any

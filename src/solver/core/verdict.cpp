@@ -88,7 +88,7 @@ void refuse_lost_motions(const Problem& problem, Result& result) {
   const double size = result.state.u.here().lpNorm<Eigen::Infinity>();
   double lost = 0;
   for (int m = 0; m < free.motions.cols(); ++m) {
-    const algebra::Vector own = jump.col(m);
+    const algebra::Vector own = algebra::Vector(jump.col(m)).unaryExpr([](double moves) { return std::abs(moves) > problem::kNotAtAll ? moves : 0; });
     if (const double held = own.cwiseAbs2().dot(springs); held > 0)
       lost = std::max(lost, std::abs(free.motions.col(m).dot(left)) / held * algebra::Vector(moved.col(m)).lpNorm<Eigen::Infinity>());
   }

@@ -23,7 +23,7 @@ using Pair = PieceProgramme::Pair;
 
 constexpr int kMostRows = 80;
 /// Of all programmes, in numbers of their matrix that least-squares steps look at: some seconds.
-constexpr double kMostWork = 1.2e10;
+constexpr double kMostWork = 6e9;
 constexpr std::size_t kProbed = 3;     // broken pairs of a node that are tried for one with a single choice
 constexpr double kSolved = 1e-9;       // residual of a feasible point, relative to the right side
 constexpr double kAngle = 1e-12;       // tolerance of bounded_least_squares()

@@ -213,7 +213,7 @@ Result solve(const Problem& problem, const ActiveSet& settings, Monitor& monitor
 Result solve(const Problem& problem, const InteriorPoint& settings, Monitor& monitor) {
   return solve_primal(problem, "interior_point", settings, monitor, [&](const PrimalProgram& primal, Monitor& recorder) {
     const auto fine = [&](const Vector& x, const Vector& y) { return problem::residual(problem, primal.state(x, y)).law <= kFine; };
-    return program::solve(primal.program(), program::InteriorPoint{settings.tol, settings.max_iterations, false, fine}, recorder);
+    return program::solve(primal.program(), program::InteriorPoint{settings.tol, settings.max_iterations, fine}, recorder);
   });
 }
 

@@ -30,7 +30,6 @@ std::vector<Key> solve_keys() {
           key::positive("tol", "active_set and interior_point: on residuals, in the scaled program").into(&ActiveSet::tol).into(&InteriorPoint::tol),
           key::integer("max_iterations", "give up after so many").at_least(1)
               .otherwise("20000 (active_set), 200 (others)").into(&ActiveSet::max_iterations).into(&InteriorPoint::max_iterations).into(&L::max_iterations),
-          key::boolean("exact", "interior_point: active sets end it, exactly").into(&InteriorPoint::exact),
           key::positive("M", "augmented Lagrangians: inner precision, |gradient| <= M |Dx - d|").into(&L::M),
           key::positive("rho", "first penalty; as M for B and c divided by their greatest entry, where that is beyond 1e6 or below 1e-6").into(&L::rho),
           key::number("alpha", "factor on eta when |Dx - d| <= eta").within(0, 1).into(&L::alpha),
