@@ -106,3 +106,24 @@ for _, element in ipairs{ "P1", "P2" } do
     end
   end
 end
+
+-- Rows of glue and of contact at one node may bear great forces that balance each other. By whatever method: what is called converged has the energy that others find.
+do
+  local function box(name, E, nu, from, to, cells)
+    return dotyk.body{ name = name, material = dotyk.material{ E = E, nu = nu }, mesh = dotyk.mesh.box{ from = {from, 0, 0}, to = {to, 0.7, 0.6}, cells = cells, element = "Q1" } }
+  end
+  local one <const>, soft <const>, other <const> = box("one", 2, 0, 0, 1, {1, 1, 1}), box("soft", 1e-5, 0.2, 0.962, 1.62, {1, 3, 3}), box("other", 1, 0.45, 1.6, 2.1, {1, 1, 1})
+  local scene <const> = dotyk.scene{ one, soft, other }
+  scene:glue{ one:part"right", soft:part"left" }
+  scene:glue{ soft:part"right", other:part"left" }
+  scene:contact{ other:part"bottom", rigid = dotyk.rigid.gap{ normal = {0, 0, -1}, gap = function(x) return 4e-8 * math.sin(4 * x + 0.2) end }, friction = dotyk.friction.coulomb(0.1) }
+  soft:part"front":displace{ x = 2e-7, y = 1e-7, z = 7e-7 }
+  other:part"right":spring{ x = 0.2, y = 0.2, z = 0.16 }
+  local energy
+  for _, name in ipairs{ "newton", "proximal", "psor", "coulomb_loop" } do
+    local s <const> = dotyk.solver[name]{}:solve(scene)
+    that(s.converged or name == "coulomb_loop", name .. ": " .. s.reason)
+    energy = energy or s.energy
+    that(not s.converged or math.abs(s.energy / energy - 1) < 1e-6, ("%s: %g for %g"):format(name, s.energy, energy))
+  end
+end

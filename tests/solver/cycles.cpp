@@ -1,7 +1,10 @@
 #include <doctest/doctest.h>
 
+#include <set>
+
 #include "../support/programs.hpp"
 #include "problem/residual.hpp"
+#include "solver/active/linearisation.hpp"
 
 using namespace dotyk;
 using algebra::DenseMatrix;
@@ -110,4 +113,18 @@ TEST_CASE("many small cycles at once, weakly coupled, are left together") {
       CHECK(problem::residual(p, r.state).law < 1e-10);
     }
   }
+}
+
+TEST_CASE("active sets of rigid rows are told apart, however many there are") {
+  constexpr int kRows = 200;
+  const auto p = test::program(DenseMatrix::Identity(kRows, kRows), Vector::Zero(kRows), DenseMatrix::Identity(kRows, kRows), Vector::Zero(kRows));
+  std::set<std::size_t> told;
+  int sets = 0;
+  for (int first = 0; first < kRows; ++first)
+    for (int end = first + 1; end <= kRows; ++end, ++sets) {
+      std::vector<char> active(kRows, 0);
+      std::fill(active.begin() + first, active.begin() + end, char(1));
+      told.insert(solver::from_flags(p, active, Vector::Ones(kRows)).fingerprint());
+    }
+  CHECK(static_cast<int>(told.size()) == sets);
 }
