@@ -55,10 +55,11 @@ got=$(printf '#!/usr/bin/dotyk\nerror "here"' | "$dotyk" --manifest - 2>&1)
 
 # A manifest is below the folder too, as its file is, and a link in its place may not lead out.
 mkdir below && echo kept >outside.txt && ln -s ../outside.txt below/x.png.manifest
-got=$("$dotyk" --manifest --safe below -e 'dotyk.chart{ file = "below/x.png", series = { { x = {0,1}, y = {0,1} } } }' 2>&1)
+# Behind the kernel's rule for the folder the leak sanitizer cannot read its list.
+got=$(ASAN_OPTIONS=detect_leaks=0 "$dotyk" --manifest --safe below -e 'dotyk.chart{ file = "below/x.png", series = { { x = {0,1}, y = {0,1} } } }' 2>&1)
 [[ $? == 1 && $got == "dotyk: -e:1: chart: 'below/x.png.manifest' is not below 'below', the folder of this run (--safe)" && $(<outside.txt) == kept ]] || fail "a link in its place: $got"
 rm below/x.png.manifest && ln -s y.manifest below/x.png.manifest
-"$dotyk" --manifest --safe below -e 'dotyk.chart{ file = "below/x.png", series = { { x = {0,1}, y = {0,1} } } }' || fail "--safe"
+ASAN_OPTIONS=detect_leaks=0 "$dotyk" --manifest --safe below -e 'dotyk.chart{ file = "below/x.png", series = { { x = {0,1}, y = {0,1} } } }' || fail "--safe"
 grep -q '^call: dotyk.chart$' below/y.manifest && [[ -L below/x.png.manifest ]] || fail "a link within the folder"
 
 exit $((failures > 0))

@@ -68,10 +68,10 @@ for e in $endings; do
 done
 [[ $(ls -A l m | grep -c .) == 18 ]] || fail "something stays beside: $(ls -A l m)"
 
-# What leads out of the folder of --safe stays refused.
+# What leads out of the folder of --safe stays refused. Behind the kernel's rule for the folder the leak sanitizer cannot read its list.
 linked below outside
 cp writers.lua below
-"$dotyk" --safe below -e 'for ending, write in pairs(dofile "below/writers.lua") do
+ASAN_OPTIONS=detect_leaks=0 "$dotyk" --safe below -e 'for ending, write in pairs(dofile "below/writers.lua") do
   for _, name in ipairs{ "below/a.", "below/new." } do
     local ok, message = pcall(write, name .. ending)
     if ok or not message:find("is not below", 1, true) then error(name .. ending .. ": " .. tostring(message)) end
