@@ -206,12 +206,6 @@ local function push(sum, x, force, share, extent)
   sum.gross_moment = sum.gross_moment + norm(f) * extent
 end
 
-local function node_force(node)
-  local f = {}
-  for k, n in ipairs(node.normal) do f[k] = node.weight * (node.shear[k] - node.pressure * n) end
-  return f
-end
-
 -- Where a node's force acts on the side of a body that is plane: across the gap, along the normal of that side.
 local function foot(scene, where, x)
   local plane = scene.plane(where.body, where.side)
@@ -234,13 +228,13 @@ local function check_equilibrium(scene, made, solution, contacts, supports, tol,
       if sum and contact.curved and (contact.second or contact.first.body.element:sub(2) == "2") then sum.whole = false end
       for _, node in ipairs(sum and contacts[k].nodes or {}) do
         local x = point(scene, node)
-        push(sum, contact.curved and x or foot(scene, where, x), node_force(node), share, extent)
+        push(sum, contact.curved and x or foot(scene, where, x), laws.force_at(node), share, extent)
       end
     end
   end
   for k, support in ipairs(scene.supports) do
     local sum = sums[group[support.body]]
-    for _, node in ipairs(support.law and supports[k].nodes or {}) do push(sum, point(scene, node), node_force(node), 1, extent) end
+    for _, node in ipairs(support.law and supports[k].nodes or {}) do push(sum, point(scene, node), laws.force_at(node), 1, extent) end
     local body = scene.bodies[support.body]
     if not support.law or (body.element:sub(2) == "2" and (body.disc or body.bend ~= 0)) then sum.whole = false end
     if not support.law then

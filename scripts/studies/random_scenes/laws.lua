@@ -55,6 +55,13 @@ end
 -- What the law stores or dissipates on the way to v.
 function laws.energy(law, v) return law.kind.energy and law.kind.energy(v, table.unpack(law.numbers)) or 0 end
 
+-- The force at a node of a result, of a contact or of a support with a law: its pressure and shear over its share.
+function laws.force_at(node)
+  local f = {}
+  for k, n in ipairs(node.normal) do f[k] = node.weight * (node.shear[k] - node.pressure * n) end
+  return f
+end
+
 -- The reactions that the law can reach, from and to.
 function laws.bounds(law)
   local kind, g = law.kind, law.numbers[#law.numbers]

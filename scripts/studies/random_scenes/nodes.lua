@@ -103,12 +103,6 @@ end
 
 -- 2. What bears forces at a node: unknown ones along `directions` (nil: any), or a known one.
 
-local function force_of(node)
-  local f = {}
-  for k, n in ipairs(node.normal) do f[k] = node.weight * (node.shear[k] - node.pressure * n) end
-  return f
-end
-
 -- The corners of a part's facets at the places of a result's nodes, or nil where there is none for one of them.
 local function found(scene, state, side, list)
   local all = {}
@@ -136,7 +130,7 @@ end
 
 local function bear_known(state, nodes, list, sign)
   for k, node in ipairs(nodes) do
-    local f = force_of(list[k])
+    local f = laws.force_at(list[k])
     for i in ipairs(f) do f[i] = sign * f[i] end
     bear(state, node, { force = f })
   end
