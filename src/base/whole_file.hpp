@@ -50,9 +50,9 @@ inline std::string place_to_write(const std::string& file) {
   return place;
 }
 
-/// While it lives, a signal that ends the program removes this file first. One at a time: of a second one nothing is
-/// noted. Signals that are ignored stay so, and those that somebody else handles, but for the ends of time, which end
-/// the program, and SIGINT: where its handler gives it back to the system (SIG_DFL), it is about to.
+/// While it lives, a signal that ends the program removes this file first. It guards one file at a time; a second one is
+/// not guarded. Ignored signals stay ignored. Handlers of other signals stay in place, except those of the time limits,
+/// which end the program, and of SIGINT: once its handler has restored SIG_DFL, the program is about to end.
 class RemovedAtEnd {
  public:
   explicit RemovedAtEnd(const std::string& file) {

@@ -7,8 +7,8 @@ namespace dotyk::problem {
 /// What counts as a force and as a displacement in a problem, by its loads, gaps, laws and stiffness: results are judged by it, and no result
 /// by its own size. It is a measure of each of the problem's Parts.
 ///
-/// Force: F = ‖f‖₂, or ‖λ⁰‖₂ if that is more. λ⁰_r = P(−k_r c_r) is the force that row r takes at rest where what it joins is as stiff as k_r.
-/// It is not zero where bodies overlap, where a displacement is prescribed, where slip is locked in from the step before, and where a law
+/// Force: F = ‖f‖₂, or ‖λ⁰‖₂ if that is more. λ⁰_r = P(−k_r c_r) is the force on row r at rest, were the bodies that it joins springs of
+/// stiffness k_r. It is not zero where bodies overlap, where a displacement is prescribed, where slip is locked in from the step before, and where a law
 /// has a force of its own. Because k_r is local, λ⁰ may be far above all forces of the solution: bodies may get out of each other's way. Of a
 /// state, ‖λ⁰‖ therefore counts as no more than the state's forces, and as no less than √ε of itself or of ‖|K||w|‖, w a motion by the greatest such gap.
 ///

@@ -10,8 +10,9 @@ namespace dotyk::script {
 // bytes go to `rest`, for the text that follows.
 std::string harmless(std::string_view text, std::string& rest);
 
-// From here on all that goes through stdout and stderr of the C library, Lua's and C++'s alike, is harmless(),
-// wherever it leads, for a terminal may stand at the end of a pipe. fileno() of them is none. Before Lua is opened.
+// From here on everything written to stdout and stderr of the C library, by Lua or by C++, passes through harmless(), also
+// into files and pipes, since a terminal may stand at the end of a pipe. These streams then have no file number
+// (fileno() fails). To be called before Lua is opened.
 void make_output_harmless();
 
 }  // namespace dotyk::script

@@ -21,7 +21,7 @@ namespace {
 
 /// Below so many unknowns nothing takes long enough to be worth an estimate.
 constexpr int kLarge = 8000;
-/// Bodies of fewer unknowns on an average are too small to be coarsened.
+/// Bodies with fewer unknowns on average are too small to coarsen.
 constexpr int kLeastBody = 500;
 /// Multigrid is chosen where factors are estimated to take kFaster times as long, since its number of iterations is less
 /// certain. In a history, where one factor serves all steps, they must take kFactorIsKept times as long.

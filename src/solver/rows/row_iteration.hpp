@@ -15,9 +15,10 @@ namespace dotyk::solver {
 /// ‖λ − P(λ + ρx)‖ / F, the least for any x within rounding. F is that of each part's multipliers, and at least Measure::least_force().
 ///
 /// A greater ρ asks more of gaps. A row's force is known to tol F only where ρ_r is not below the stiffness that the row sees; a gap that is
-/// great beside the displacements X must count as well. Hence ρ_r = max(1/W_rr, F/max(X, |c_r|)), X at least what the greatest
-/// multiplier moves the stiffest row by.
-/// x is a sum of terms: of a body that moves as a whole far more than it deforms, rounding of it may be all that is left.
+/// great beside the displacements X must count as well. Hence ρ_r = max(1/W_rr, F/max(X, |c_r|)). X is at least what the
+/// greatest multiplier moves the stiffest row by.
+///
+/// x is a sum of terms. Where a body moves as a whole far more than it deforms, only their rounding may be left in x.
 class RowMeasure {
  public:
   RowMeasure(const problem::Problem& problem, const problem::CondensedProblem& condensed);
