@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "algebra/dense/decompositions.hpp"
+
 namespace dotyk::problem {
 
 using algebra::Vector;
@@ -22,6 +24,21 @@ Vector local_stiffness(const Problem& problem) {
   return problem.row_compliance().unaryExpr([](double yields) { return yields > 0 ? 1 / yields : 0.0; });
 }
 
+/// By part the greatest |u − R R⁺u|, R each block's rigid motions.
+std::vector<double> deformation(const Problem& problem, const Parts& parts, const State& state, const Forces& forces) {
+  const auto moves = [](const Block& block) { return block.kernel.cols() > 0; };
+  if (std::none_of(problem.blocks.begin(), problem.blocks.end(), moves)) return OfParts(problem, parts).greatest(*forces.u);
+  std::vector<double> most(static_cast<std::size_t>(parts.count), 0);
+  for (std::size_t b = 0; b < problem.blocks.size(); ++b) {
+    const Block& block = problem.blocks[b];
+    Vector own = state.u.here().segment(block.first, block.size());
+    if (moves(block)) own -= block.kernel * algebra::least_squares(block.kernel, own);
+    double& of_part = most[static_cast<std::size_t>(parts.of_block[b])];
+    of_part = std::max(of_part, own.lpNorm<Eigen::Infinity>());
+  }
+  return most;
+}
+
 }  // namespace
 
 Measure::Measure(const Problem& problem, Vector stiffness)
@@ -36,12 +53,11 @@ Measure::Measure(const Problem& problem, Vector stiffness)
 }
 
 Measure::Measure(const Problem& problem, const State& state, const Forces& forces) : Measure(problem) {
-  const std::vector<double> borne = parts_.norm(state.lambda), stiffest = parts_.greatest(stiffness_),
-                            jump = parts_.greatest(rows_times(problem, state.u)), moved = OfParts(problem, parts_).greatest(*forces.u);
+  const std::vector<double> borne = parts_.norm(state.lambda), stiffest = parts_.greatest(stiffness_), deformed = deformation(problem, parts_, state, forces);
   for (std::size_t p = 0; p < force_.size(); ++p) {
     force_[p] = std::max({load_[p], least_[p], std::min(borne[p], at_rest_[p])});
     if (force_[p] == 0) force_[p] = std::max(borne[p], kHalf * gross_forces(problem, p, state.u));
-    length_[p] = positive_or_one(std::max({stiffest[p] > 0 ? force_[p] / stiffest[p] : 0, jump[p], moved[p]}));
+    length_[p] = positive_or_one(std::max(stiffest[p] > 0 ? force_[p] / stiffest[p] : 0, deformed[p]));
     force_[p] = positive_or_one(force_[p]);
   }
 }

@@ -12,8 +12,8 @@ namespace dotyk::problem {
 /// has a force of its own. Because k_r is local, λ⁰ may be far above all forces of the solution: bodies may get out of each other's way. Of a
 /// state, ‖λ⁰‖ therefore counts as no more than the state's forces, and as no less than √ε of itself or of ‖|K||w|‖, w a motion by the greatest such gap.
 ///
-/// Displacement: X = F/k of the part's stiffest row, or the greatest |u| and |Bu| of a state if that is more: a slender body yields far more
-/// than k says. Great multipliers do not make X greater. A row with a gap beyond X is measured by its gap.
+/// Displacement: X = F/k of the part's stiffest row, or the greatest |u| of a state without its rigid motions if that is more: a slender body
+/// yields far more than k says. How far bodies move as a whole does not count, nor do great multipliers. A row with a gap beyond X is measured by its gap.
 ///
 /// A part that nothing loads has at least a small part of the forces of the others. Where nothing drives anything, the solution is without forces; those of a
 /// state, or √ε ‖|K||u|‖, are then all that it can be measured by.

@@ -147,16 +147,25 @@ MotionResidual motion_residual(const Problem& problem, const State& state) {
 
 namespace {
 
+/// By row, what rounding may leave of x = Bu − c: a body that moves as a whole far more than it deforms has no better gaps.
+Vector rounding_of_jumps(const Problem& problem, const Displacement& u) {
+  constexpr double kRoundings = 16;  // of the terms, which a method sums as well
+  const Problem::NearRows near = problem.near_rows();
+  const Vector moved = u.there() ? u.there()->some(near.unknowns) : Vector(u.here()(near.unknowns));
+  return kRoundings * std::numeric_limits<double>::epsilon() * (algebra::SparseRows(near.B.cwiseAbs()) * moved.cwiseAbs());
+}
+
 /// Sets what Residual says of the laws.
 void add_laws(const Problem& problem, const State& state, const Vector& x, const Measure& m, Residual& result) {
   const auto rho = [&](int r) { return m.force_of_row(r) / m.length_of_row(r); };
-  const Vector off = distances(problem, x, state.lambda, rho, none);
+  const Vector rounding = rounding_of_jumps(problem, state.u);
+  const Vector off = distances(problem, x, state.lambda, rho, [&](int r) { return rounding[r]; });
   for (int r = 0; r < problem.rows(); ++r) result.law = std::max(result.law, off[r] / m.force_of_row(r));
   std::vector<double> work(static_cast<std::size_t>(m.parts().count), 0);
   for (const auto& [law, k, r] : problem.scalar_rows()) {
     if (!law.unilateral()) continue;
-    result.penetration = std::max(result.penetration, x[r] / m.length_of_row(r));
-    work[static_cast<std::size_t>(m.parts().of_row[r])] += std::abs(state.lambda[r] * x[r]);
+    result.penetration = std::max(result.penetration, (x[r] - rounding[r]) / m.length_of_row(r));
+    work[static_cast<std::size_t>(m.parts().of_row[r])] += std::abs(state.lambda[r]) * std::max(0.0, std::abs(x[r]) - rounding[r]);
   }
   result.complementarity = greatest_ratio(work, [&](std::size_t p) { return m.force(p) * m.length(p); });
   for (const auto& [group, k, first, n] : problem.friction_points()) {

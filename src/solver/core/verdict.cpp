@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "algebra/dense/decompositions.hpp"
 #include "base/text.hpp"
 #include "problem/free_motions.hpp"
 #include "solver/core/settle.hpp"
@@ -13,6 +14,8 @@ namespace dotyk::solver {
 
 namespace {
 
+using algebra::DenseMatrix;
+using algebra::Vector;
 using problem::Problem;
 using problem::Residual;
 
@@ -74,25 +77,27 @@ void refuse_lost_motions(double softest, Result& result) {
   if (lost > result.noise) refuse(text("rounding may leave ", lost, " of a motion that supports hardly hold"), result);
 }
 
-/// Rows of springs may hold a motion alone. What is left of equilibrium along it, however small beside all forces, moves it by this over their stiffness.
-void refuse_lost_motions(const Problem& problem, Result& result) {
-  algebra::Vector springs = algebra::Vector::Zero(problem.rows());
+/// Linear springs may hold motions alone, hardly. What a method leaves of equilibrium there is little beside all forces and moves them far: they go to where the
+/// springs balance what is left, H α = Mᵀ(e − Nᵀλ), H = (NM)ᵀ k NM, M the motions. What rounding of that may still move them by is taken back.
+void settle_on_springs(const Problem& problem, Result& result) {
+  Vector springs = Vector::Zero(problem.rows());
   for (const auto& [law, k, r] : problem.scalar_rows())
     if (const auto own = law.linear_stiffness(k); own && std::isfinite(*own)) springs[r] = *own;
   if (springs.isZero(0) || problem.hides()) return;
   const problem::FreeMotions free = problem::free_motions(problem, result.state, kOnBound, false);
   if (free.motions.cols() == 0) return;
   const problem::RigidMotions rigid = problem::rigid_motions(problem);
-  const algebra::Vector left = rigid.e - rigid.N.transpose() * result.state.lambda;
-  const algebra::SparseMatrix jump = rigid.N * free.motions, moved = problem::displacement(problem, free.motions);
-  const double size = result.state.u.here().lpNorm<Eigen::Infinity>();
-  double lost = 0;
-  for (int m = 0; m < free.motions.cols(); ++m) {
-    const algebra::Vector own = algebra::Vector(jump.col(m)).unaryExpr([](double moves) { return std::abs(moves) > problem::kNotAtAll ? moves : 0; });
-    if (const double held = own.cwiseAbs2().dot(springs); held > 0)
-      lost = std::max(lost, std::abs(free.motions.col(m).dot(left)) / held * algebra::Vector(moved.col(m)).lpNorm<Eigen::Infinity>());
-  }
-  if (lost > result.noise * size) refuse(text("what is left of equilibrium may be ", lost, " of a motion that springs alone hold, beside displacements of ", size), result);
+  const DenseMatrix jump = DenseMatrix(rigid.N * free.motions).unaryExpr([](double moves) { return std::abs(moves) > problem::kNotAtAll ? moves : 0; }),
+                    moved = problem::displacement(problem, free.motions), held = jump.transpose() * springs.asDiagonal() * jump;
+  const Vector unit = held.diagonal().unaryExpr([](double k) { return k > 0 ? 1 / std::sqrt(k) : 0.0; });
+  const Vector left = free.motions.transpose() * (rigid.e - rigid.N.transpose() * result.state.lambda);
+  const Vector amounts = unit.cwiseProduct(algebra::MinimumNorm(unit.asDiagonal() * held * unit.asDiagonal()).solve(Vector(unit.cwiseProduct(left))));
+  result.state.u.change() += moved * amounts;
+  result.state.lambda += springs.cwiseProduct(jump * amounts);
+  const Vector gross = algebra::SparseMatrix(free.motions.cwiseAbs()).transpose() * rigid.e.cwiseAbs() + jump.cwiseAbs().transpose() * result.state.lambda.cwiseAbs();
+  const Vector lost = std::numeric_limits<double>::epsilon() * gross.cwiseProduct(unit.cwiseAbs2()).cwiseProduct(moved.cwiseAbs().colwise().maxCoeff().transpose());
+  const double most = lost.maxCoeff(), size = result.state.u.here().lpNorm<Eigen::Infinity>();
+  if (most > result.noise * size) refuse(text("rounding may leave ", most, " of a motion that springs alone hold, beside displacements of ", size), result);
 }
 
 std::size_t first_clause(const std::string& reason) { return std::min(reason.find("; "), reason.size()); }
@@ -110,11 +115,11 @@ std::string doubt(const Result& r) {
 }
 
 Residual judge(const Problem& problem, Result& result, double softest) {
+  if (result.converged && result.state.lambda.allFinite()) settle_on_springs(problem, result);
   const Residual r = problem::residual(problem, result.state);
   require_finite(problem, result, r);
   if (result.converged) refuse_residuals(problem, r, result);
   if (result.converged) refuse_lost_motions(softest, result);
-  if (result.converged) refuse_lost_motions(problem, result);
   return r;
 }
 
