@@ -14,12 +14,12 @@
 -- not as it should be with its seed: SEED 1 runs that one again. Exit status 1 where anything is wrong.
 --
 -- Classes: solved (two methods agree), one method (no second one converges), several (Coulomb friction: two methods find
--- two states that are both right), refused (rightly; what friction cannot bear by trying all its combinations; also "not
--- converged" where conditions contradict each other, or where rounding hides what holds a body), undecided (refused; the
--- criterion cannot tell, or the combinations are too many), in doubt (no method converges, and Coulomb friction must
--- bear loads that nothing else balances: there may be no solution, while without such loads there is one whatever the
--- coefficient, by Brouwer's theorem on the bounds of friction), not converged; WRONG, REFUSED (it has a solution) and
--- ERROR.
+-- two states that are both right), beyond (greater strains or rotations than the equations are for, said), refused
+-- (rightly; what friction cannot bear by trying all its combinations; also "not converged" where conditions contradict
+-- each other, or where rounding hides what holds a body), undecided (refused; the criterion cannot tell, or the
+-- combinations are too many), in doubt (no method converges, and Coulomb friction must bear loads that nothing else
+-- balances: there may be no solution, while without such loads there is one whatever the coefficient, by Brouwer's
+-- theorem on the bounds of friction), not converged; WRONG, REFUSED (it has a solution) and ERROR.
 
 local first_seed <const>, count <const> = tonumber(arg[1]) or 1, tonumber(arg[2]) or 200
 local asked <const> = {}
@@ -102,13 +102,15 @@ local function balanced(scene, without)
 end
 
 -- Are loads borne by springs alone that are so weak that rounding hides them? Or, of a state that is given up because of
--- rounding, is the rounding of its inner forces, stiffness times displacement, more than a part of 1e-8 of the greatest
--- force?
-local function lost_in_rounding(scene, made, s)
+-- rounding, may one rounding error of the forces move what the weakest springs hold by more than a millionth, or is the
+-- rounding of its inner forces, stiffness times displacement, more than a part of 1e-8 of the greatest force, `factor`
+-- times that of the whole load?
+local function lost_in_rounding(scene, made, s, factor)
   if scene.weakest and scene.weakest < 1e-9 and balanced(scene, "weak") ~= "solvable" then return true end
   if not s or not s.reason:find "rounding" then return false end
+  if s.reason:find "that springs alone hold" then return scene.weakest and 1e-16 / scene.weakest > 1e-6 end
   local rounding <const>, force <const> = check_solids.rounding(scene, made, s)
-  return rounding > 1e-8 * force
+  return rounding > 1e-8 * force * factor
 end
 
 -- Has a scene no solution though forces in the cones of friction would balance its loads? All combinations of open, stick and slip
@@ -158,13 +160,23 @@ local function check(scene, made, s, method)
   return tol
 end
 
+-- Have all steps converged? If not why, and which part of the load acted.
 local function all_converged(scene, s)
   for k, step in ipairs(scene.steps and s.steps or {}) do
-    if not step.converged then
-      return false, ("step %d of %d (load %g): %s"):format(k, #scene.steps, scene.steps[k], step.reason)
-    end
+    local factor = scene.steps[k]
+    if not step.converged then return false, ("step %d of %d (load %g): %s"):format(k, #scene.steps, factor, step.reason), math.abs(factor) end
   end
-  return s.converged, s.reason
+  return s.converged, s.reason, 1
+end
+
+-- Does a solution say that its strains or rotations are far beyond what the equations are for? What is then moved by
+-- wedges that close after many times their size is a solution of the equations, and of no use: it has to be said.
+local function told_as_beyond(s)
+  for _, warning in ipairs(s.warnings) do
+    local percent <const>, radians <const> = warning:match "strained by (%S+) %%", warning:match "turns by (%S+) radians"
+    if (tonumber(percent) or 0) > 100 or (tonumber(radians) or 0) > 1 then return true end
+  end
+  return false
 end
 
 -- A method with a tolerance that a scene names: what it calls converged obeys all laws to ten times that part of the
@@ -198,20 +210,22 @@ local function judge(scene)
   local seconds <const> = os.clock() - start
   if seconds > slowest.seconds then slowest.seconds, slowest.seed = seconds, scene.seed end
   if not solved then return refused(scene, tostring(s), made) end
-  local converged, reason = all_converged(scene, s)
+  local converged, reason, factor = all_converged(scene, s)
   local other, name = second_solution(scene, made)
   if not converged then
     local text = ("%s: %s (%s)"):format(s.method, reason, name and name .. " converges" or "no second method converges")
-    if not other and scene.dimension and lost_in_rounding(scene, made, s) then return "refused" end
+    if not other and scene.dimension and lost_in_rounding(scene, made, s, factor) then return "refused" end
     if not other and scene.coulomb and balanced(scene, "friction") ~= "solvable" then return "in doubt", text end
     return "not converged", names_methods(reason) and text or text .. ": THE REASON NAMES NO METHOD THAT WAS TRIED"
   end
   local tol, wrong = check(scene, made, s, s.method)
+  if not tol and told_as_beyond(s) then return "beyond" end
   if not tol then return "WRONG", wrong end
   wrong = scene.loose and check_loose(scene, made)
   if wrong then return "WRONG", wrong end
   if not other then return "one method" end
   tol, wrong = check(scene, made, other, name)
+  if not tol and told_as_beyond(other) then return "one method" end
   if not tol then return "WRONG", wrong end
   local a, b = energy(scene, s), energy(scene, other)
   if math.abs(a - b) <= 1e-6 * math.abs(a) + tol.energy then return "solved" end
@@ -233,7 +247,7 @@ local function random_scene(seed)
   return scene, ("%s, %s"):format(family, kinds[scene.friction])
 end
 
-local classes <const> = { "solved", "one method", "several", "refused", "undecided", "in doubt", "not converged", "WRONG", "REFUSED", "ERROR" }
+local classes <const> = { "solved", "one method", "several", "beyond", "refused", "undecided", "in doubt", "not converged", "WRONG", "REFUSED", "ERROR" }
 local families <const> = { "plane, no friction", "plane, given friction", "plane, Coulomb friction", "space, no friction",
                            "space, given friction", "space, Coulomb friction", "beams", "plates", "all" }
 local counts <const> = {}
@@ -288,8 +302,8 @@ end
 local convex <const> = all["not converged"] + all["in doubt"] - given_up
 local good <const> = wrong + all.REFUSED + convex + unnamed == 0 and given_up <= math.max(1, 0.005 * coulomb)
   and slowest.seconds <= 20
-print(("%d scenes: %d solved, %d refused rightly, %d not decided, %d refused wrongly, %d wrong or errors"):format(
-  all.all, all.solved + all["one method"] + all.several, all.refused, all.undecided, all.REFUSED, wrong))
+print(("%d scenes: %d solved, %d beyond small strains, %d refused rightly, %d not decided, %d refused wrongly, %d wrong or errors"):format(
+  all.all, all.solved + all["one method"] + all.several, all.beyond, all.refused, all.undecided, all.REFUSED, wrong))
 print(("%d convex ones not converged, %d of %d with Coulomb friction, %d without naming what was tried; seed %d took %.3g s"):format(
   convex, given_up, coulomb, unnamed, slowest.seed or 0, slowest.seconds))
 print(good and "all as it should be" or "not as it should be")

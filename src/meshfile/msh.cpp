@@ -193,7 +193,7 @@ class MshReader {
     std::vector<int> result;
     for (const int tag : tags) {
       if (tag == 0) continue;
-      const std::pair key{dimension, std::abs(tag)};
+      const std::pair key{dimension, static_cast<int>(std::abs(std::int64_t{tag}))};
       const auto [group, fresh] = group_.try_emplace(key, static_cast<int>(contents_.groups.size()));
       if (fresh) contents_.groups.push_back({dimension, names_.contains(key) ? names_[key] : std::to_string(key.second)});
       result.push_back(group->second);

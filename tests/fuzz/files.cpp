@@ -1,4 +1,4 @@
-// fuzz_files SECONDS SEED [FOLDER]: files that scripts read, changed at random: programs (QPS, MATLAB), linear
+// fuzz_files COUNT SEED [FOLDER]: files that scripts read, changed at random: programs (QPS, MATLAB), linear
 // complementarity problems, contact problems as siconos prints them and in HDF5, meshes of Gmsh, MFEM and VTK, of order
 // 1 or 2; where ../shared/reference is, its small files too. Each is read, and what could be read is solved. Failures
 // are those of fuzz_lua; the file that failed stands in the script.
@@ -119,13 +119,13 @@ class Mutation {
 }  // namespace
 
 int main(int count, char** words) {
-  const double seconds = count > 1 ? std::atof(words[1]) : 5;
+  const auto files = static_cast<unsigned>(count > 1 ? std::atoll(words[1]) : 500);
   const auto first = static_cast<unsigned>(count > 2 ? std::atoll(words[2]) : 1);
   fuzz::Machine machine(count > 3 ? words[3] : ".");
   const auto all = seeds();
   const Stopwatch clock;
   unsigned seed = first;
-  for (; clock.seconds() < seconds; ++seed) {
+  for (; seed < first + files; ++seed) {
     Mutation mutation(seed);
     const Seed& one = all[mutation.below(all.size())];
     const std::string content = mutation(one.content, all[mutation.below(all.size())].content);

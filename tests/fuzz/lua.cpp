@@ -146,14 +146,14 @@ class Program {
 }  // namespace
 
 int main(int count, char** words) {
-  const double seconds = count > 1 ? std::atof(words[1]) : 5;
+  const auto programs = static_cast<unsigned>(count > 1 ? std::atoll(words[1]) : 300);
   const auto first = static_cast<unsigned>(count > 2 ? std::atoll(words[2]) : 1);
   Machine machine(count > 3 ? words[3] : ".");
   const Stopwatch clock;
   double before = 0;
   Reached reached;
   unsigned seed = first;
-  for (; clock.seconds() < seconds; ++seed) {
+  for (; seed < first + programs; ++seed) {
     machine.begin(text("seed_", seed));
     Program(machine, seed, reached).run();
     if (seed - first == 400) before = fuzz::resident();

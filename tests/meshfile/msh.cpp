@@ -72,6 +72,11 @@ TEST_CASE("elements are of the physical group that they name, whatever entity th
   CHECK(assemble(c, {.regions = {"soft"}}, "f").mesh.cell_count() == 1);
 }
 
+TEST_CASE("a group may have every number of 32 bits") {
+  for (const char* number : {"2147483647", "-2147483647", "-2147483648"})
+    CHECK(assemble(read_msh(square("", {std::string("1 2 ") + number + " 0 1 2", "2 2 1 0 1 2 3", "2 2 1 0 1 3 4"}), "f"), {}, "f").mesh.parts.size() == 1);
+}
+
 TEST_CASE("groups of one name keep it: a part is all of them, and the notes say so") {
   const Loaded all = assemble(read_msh(square("$PhysicalNames\n4\n1 11 \"side\"\n1 12 \"side\"\n2 1 \"side\"\n0 5 \"tip\"\n$EndPhysicalNames\n",
                                               {"1 2 11 0 1 2", "1 2 12 0 2 3", "15 2 5 0 1", "2 2 1 0 1 2 3", "2 2 1 0 1 3 4"}),

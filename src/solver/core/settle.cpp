@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <limits>
 
 #include "algebra/dense/null_space.hpp"
 #include "base/error.hpp"
@@ -12,6 +13,9 @@
 
 namespace dotyk::solver {
 
+using algebra::DenseMatrix;
+using algebra::SparseMatrix;
+using algebra::SparseRows;
 using algebra::Vector;
 
 namespace {
@@ -23,17 +27,19 @@ const char* stress(const problem::Problem& problem) {
 
 std::string end(double amount) { return std::isfinite(amount) ? text(amount) : amount < 0 ? "-infinity" : "infinity"; }
 
-/// The amounts of free motions nearest to `wanted` in the metric G = DᵀD of their displacements: within their limits, from 0 on.
-Vector nearest_amounts(const problem::FreeMotions& free, const Eigen::MatrixXd& G, const Vector& wanted) {
+/// The amounts α of free motions of least ½αᵀGα − wantedᵀα within their limits, from 0 on. In units in which G has the diagonal 1.
+Vector least_amounts(const problem::FreeMotions& free, const DenseMatrix& G, const Vector& wanted) {
   const Eigen::Index k = G.cols(), m = free.limits.rows();
-  program::QuadraticProgram nearest{"nearest", Eigen::MatrixXd(G.triangularView<Eigen::Lower>()).sparseView(), -wanted, 0, free.limits,
-                                    Vector::Constant(m, -INFINITY), free.slack};
+  const Vector unit = G.diagonal().unaryExpr([](double g) { return g > 0 ? 1 / std::sqrt(g) : 1.0; });
+  const DenseMatrix metric = unit.asDiagonal() * G * unit.asDiagonal();
+  program::QuadraticProgram nearest{"nearest", DenseMatrix(metric.triangularView<Eigen::Lower>()).sparseView(), -unit.cwiseProduct(wanted), 0,
+                                    m > 0 ? SparseRows(free.limits * unit.asDiagonal()) : SparseRows(0, k), Vector::Constant(m, -INFINITY), free.slack};
   program::ActiveSet settings;
   settings.start = program::ActiveSet::Start::cold;
   settings.point = Vector::Zero(k);
   Monitor quiet;
   const program::Result found = program::solve(nearest, settings, quiet);
-  return found.status == program::Status::solved ? found.x : Vector::Zero(k);
+  return found.status == program::Status::solved ? unit.cwiseProduct(found.x) : Vector(Vector::Zero(k));
 }
 
 /// The motions, how far they go, and of all states that differ by them the one nearest to `before`; where unknowns are hidden the state stays as it is.
@@ -49,7 +55,7 @@ void take_nearest(const problem::Problem& problem, const problem::FreeMotions& f
   if (!hides) {
     Vector& u = result.state.u.change();
     const Vector wanted = at_rest ? Vector(-u) : Vector(before.here() - u);
-    amounts = nearest_amounts(free, D.transpose() * D, D.transpose() * wanted);
+    amounts = least_amounts(free, D.transpose() * D, D.transpose() * wanted);
     u += D * amounts;
   }
   int widest = 0;
@@ -85,6 +91,29 @@ problem::FreeMotions settle(const problem::Problem& problem, const problem::Disp
     result.reason += text(stress(problem), ", displacement up to ", free.count, " motions that the contacts that hold leave free",
                           free.motions.cols() > 0 ? ", one of them " + describe(problem::body_motions(problem), Vector(free.motions.col(0))) : "");
   return free;
+}
+
+double settle_on_springs(const problem::Problem& problem, double most, problem::State& state) {
+  Vector springs = Vector::Zero(problem.rows());
+  for (const auto& [law, k, r] : problem.scalar_rows())
+    if (const auto own = law.linear_stiffness(k); own && std::isfinite(*own)) springs[r] = *own;
+  if (springs.isZero(0) || problem.hides()) return 0;
+  const problem::FreeMotions free = problem::free_motions(problem, state, kOnBound, false);
+  if (free.motions.cols() == 0) return 0;
+  const problem::RigidMotions rigid = problem::rigid_motions(problem);
+  const DenseMatrix jump = DenseMatrix(rigid.N * free.motions).unaryExpr([](double moves) { return std::abs(moves) > problem::kNotAtAll ? moves : 0; }),
+                    moved = problem::displacement(problem, free.motions), held = jump.transpose() * springs.asDiagonal() * jump;
+  const Vector yields = held.diagonal().unaryExpr([](double k) { return k > 0 ? 1 / k : 0.0; });
+  const Vector left = free.motions.transpose() * (rigid.e - rigid.N.transpose() * state.lambda);
+  const Vector amounts = least_amounts(free, held, left);
+  const Vector gross = SparseMatrix(free.motions.cwiseAbs()).transpose() * rigid.e.cwiseAbs() + jump.cwiseAbs().transpose() * state.lambda.cwiseAbs();
+  const Vector by_rounding = gross.cwiseProduct(yields).cwiseProduct(moved.cwiseAbs().colwise().maxCoeff().transpose());
+  const Vector u = state.u.here() + moved * amounts;
+  const double lost = std::numeric_limits<double>::epsilon() * by_rounding.maxCoeff() / u.lpNorm<Eigen::Infinity>();
+  if (!(lost <= most)) return lost;
+  state.u = u;
+  state.lambda += springs.cwiseProduct(jump * amounts);
+  return lost;
 }
 
 }  // namespace dotyk::solver

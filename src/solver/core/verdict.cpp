@@ -5,17 +5,13 @@
 #include <limits>
 #include <stdexcept>
 
-#include "algebra/dense/decompositions.hpp"
 #include "base/text.hpp"
-#include "problem/free_motions.hpp"
 #include "solver/core/settle.hpp"
 
 namespace dotyk::solver {
 
 namespace {
 
-using algebra::DenseMatrix;
-using algebra::Vector;
 using problem::Problem;
 using problem::Residual;
 
@@ -61,13 +57,13 @@ void refuse_residuals(const Problem& problem, const Residual& r, Result& result)
     for (int row = 0; row < problem.rows(); ++row) penalty = std::max(penalty, (1 + asked) * result.penalty->penetration / measure.length_of_row(row));
   }
   const double laws = result.penalty ? r.law : r.laws();
+  const char* unloaded = problem.loaded() ? "" : " (no load gives forces a scale: if they should vanish, take pdas, which ends exactly)";
   if (equilibrium > allowed)
-    refuse(text("rounding leaves a residual of ", equilibrium, " in equilibrium", problem.loaded() ? "" : " (no load gives forces a scale: if they should vanish, take pdas, which ends exactly)",
-                ": stiffnesses, supports or sizes are too far apart ",
+    refuse(text("rounding leaves a residual of ", equilibrium, " in equilibrium", unloaded, ": stiffnesses, supports or sizes are too far apart ",
                 result.feti ? "for this decomposition, or tol is too great"
                             : "(a material nearly incompressible, a spring nearly absent, cells nearly flat)"), result);
   else if (laws > std::max(asked, penalty))
-    refuse(text("the state is off the laws of contact and supports by ", laws, ", which neither tol nor rounding explains"), result);
+    refuse(text("the state is off the laws of contact and supports by ", laws, ", which neither tol nor rounding explains", unloaded), result);
 }
 
 /// A motion held by a part of the body's own stiffness is known to rounding over that part, whatever the residuals say:
@@ -75,29 +71,6 @@ void refuse_residuals(const Problem& problem, const Residual& r, Result& result)
 void refuse_lost_motions(double softest, Result& result) {
   const double lost = std::numeric_limits<double>::epsilon() / softest;
   if (lost > result.noise) refuse(text("rounding may leave ", lost, " of a motion that supports hardly hold"), result);
-}
-
-/// Linear springs may hold motions alone, hardly. What a method leaves of equilibrium there is little beside all forces and moves them far: they go to where the
-/// springs balance what is left, H α = Mᵀ(e − Nᵀλ), H = (NM)ᵀ k NM, M the motions. What rounding of that may still move them by is taken back.
-void settle_on_springs(const Problem& problem, Result& result) {
-  Vector springs = Vector::Zero(problem.rows());
-  for (const auto& [law, k, r] : problem.scalar_rows())
-    if (const auto own = law.linear_stiffness(k); own && std::isfinite(*own)) springs[r] = *own;
-  if (springs.isZero(0) || problem.hides()) return;
-  const problem::FreeMotions free = problem::free_motions(problem, result.state, kOnBound, false);
-  if (free.motions.cols() == 0) return;
-  const problem::RigidMotions rigid = problem::rigid_motions(problem);
-  const DenseMatrix jump = DenseMatrix(rigid.N * free.motions).unaryExpr([](double moves) { return std::abs(moves) > problem::kNotAtAll ? moves : 0; }),
-                    moved = problem::displacement(problem, free.motions), held = jump.transpose() * springs.asDiagonal() * jump;
-  const Vector unit = held.diagonal().unaryExpr([](double k) { return k > 0 ? 1 / std::sqrt(k) : 0.0; });
-  const Vector left = free.motions.transpose() * (rigid.e - rigid.N.transpose() * result.state.lambda);
-  const Vector amounts = unit.cwiseProduct(algebra::MinimumNorm(unit.asDiagonal() * held * unit.asDiagonal()).solve(Vector(unit.cwiseProduct(left))));
-  result.state.u.change() += moved * amounts;
-  result.state.lambda += springs.cwiseProduct(jump * amounts);
-  const Vector gross = algebra::SparseMatrix(free.motions.cwiseAbs()).transpose() * rigid.e.cwiseAbs() + jump.cwiseAbs().transpose() * result.state.lambda.cwiseAbs();
-  const Vector lost = std::numeric_limits<double>::epsilon() * gross.cwiseProduct(unit.cwiseAbs2()).cwiseProduct(moved.cwiseAbs().colwise().maxCoeff().transpose());
-  const double most = lost.maxCoeff(), size = result.state.u.here().lpNorm<Eigen::Infinity>();
-  if (most > result.noise * size) refuse(text("rounding may leave ", most, " of a motion that springs alone hold, beside displacements of ", size), result);
 }
 
 std::size_t first_clause(const std::string& reason) { return std::min(reason.find("; "), reason.size()); }
@@ -115,9 +88,10 @@ std::string doubt(const Result& r) {
 }
 
 Residual judge(const Problem& problem, Result& result, double softest) {
-  if (result.converged && result.state.lambda.allFinite()) settle_on_springs(problem, result);
+  const double lost = result.converged && result.state.lambda.allFinite() ? settle_on_springs(problem, result.noise, result.state) : 0;
   const Residual r = problem::residual(problem, result.state);
   require_finite(problem, result, r);
+  if (result.converged && lost > result.noise) refuse(text("rounding may leave ", lost, " of a motion that springs alone hold"), result);
   if (result.converged) refuse_residuals(problem, r, result);
   if (result.converged) refuse_lost_motions(softest, result);
   return r;

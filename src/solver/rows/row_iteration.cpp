@@ -10,6 +10,7 @@
 #include "problem/residual.hpp"
 #include "solver/active/refine.hpp"
 #include "solver/core/require_solvable.hpp"
+#include "solver/core/settle.hpp"
 
 namespace dotyk::solver {
 
@@ -199,15 +200,17 @@ void refine_rounded(const Problem& problem, const CondensedProblem& condensed, d
 
 }  // namespace
 
-/// Forces that are small beside the loads, where bodies end up out of each other's way, are known to rounding of the loads alone.
+/// Forces that are small beside the loads, where bodies end up out of each other's way, are known to rounding of the loads alone, and those of thin
+/// bodies to rounding of stiffness times displacement.
 bool RowIteration::accept() {
   constexpr double kRoundings = 100;  // of a product K u
   if (converged() || problem.blocks.empty() || astray(*this)) return converged();
   const Iterate best = best_.lambda.size() && !(residual() <= best_residual_) ? best_ : at_;
-  const problem::State state{condensed.recover(best.lambda, best.alpha), best.lambda};
+  problem::State state{condensed.recover(best.lambda, best.alpha), best.lambda};
+  settle_on_springs(problem, result_.noise, state);
   const problem::Residual r = problem::residual(problem, state);
-  if (!(r.laws() <= kRounded)) return false;
-  if (r.equilibrium > std::max(kRounded, kRoundings * problem::rounding_of_equilibrium(problem, state))) return false;
+  const double allowed = std::max(kRounded, kRoundings * problem::rounding_of_equilibrium(problem, state));
+  if (!(r.laws() <= allowed && r.equilibrium <= allowed)) return false;
   move_to(best);
   accepted_ = r.laws();
   return result_.converged = true;
