@@ -248,11 +248,11 @@ double least_quotient(const Motions& motions, const SparseMatrix& lower, ByRows 
   return algebra::eigenvalues(Q.transpose() * algebra::symmetric_product(lower, Q))[0];
 }
 
-/// Q: rigid motions without the kernel, M-orthonormal.
-WeakMotions by_response(const Motions& motions, const ByRows& Q, const Numbering& numbering, const SparseMatrix& lower, const DenseMatrix& kernel) {
+/// Q: rigid motions without the kernel, M-orthonormal. `sprung`: those of them that springs hold, softly.
+WeakMotions by_response(const Motions& motions, const ByRows& Q, const ByRows& sprung, const Numbering& numbering, const SparseMatrix& lower, const DenseMatrix& kernel) {
   WeakMotions result;
   algebra::GeneralisedInverse inverse(lower, numbering.node, kernel);
-  if (!inverse.factor(lower)) return result;  // singular for another reason, which the solver tells
+  if (!inverse.factor(lower)) return {0, motions.named(sprung)};  // where there are none it is singular for another reason, which the solver tells
   const ByRows fixed = kernel;
   const auto response = [&](const ByRows& u) { return motions.without(fixed, inverse.apply(motions.w.asDiagonal() * u)); };
   const auto deformation = [&](const ByRows& u) { return ByRows(u - combined(Q, motions.inner(Q, u))); };
@@ -310,7 +310,8 @@ WeakMotions weak_motions(const mesh::Mesh& mesh, const MaterialField& material, 
   const algebra::SymmetricMatrix K = stiffness();
   const ByRows lost = lost_in_rounding(motions, mesh, numbering, K, combined(Q, trial.vectors));
   if (lost.cols() > 0) return {0, motions.named(lost)};
-  return by_response(motions, Q, numbering, K, kernel);
+  const auto soft = static_cast<Eigen::Index>(springs.facets.empty() ? 0 : (trial.values.array() < kSuspicious * own).count());
+  return by_response(motions, Q, combined(Q, trial.vectors.leftCols(soft)), numbering, K, kernel);
 }
 
 }  // namespace dotyk::elasticity
