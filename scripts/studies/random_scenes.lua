@@ -179,13 +179,13 @@ local function told_as_beyond(s)
   return false
 end
 
--- A method with a tolerance that a scene names: what it calls converged obeys all laws to ten times that part of the
--- greatest force.
+-- A method with a tolerance that a scene names: what it calls converged obeys all laws to twenty times that part of the
+-- greatest force (its residuals are beside the norm of all).
 local function check_loose(scene, made)
   local name <const>, tol <const> = table.unpack(scene.loose)
   local good, s = pcall(function() return dotyk.solver[name]{ tol = tol }:solve(made.scene, options_of(scene)) end)
   if not good or not s.converged then return end
-  scene.accuracy = math.max(1e-6, 10 * tol)
+  scene.accuracy = math.max(1e-6, 20 * tol)
   local _, wrong = check(scene, made, s, ("%s{ tol = %g }"):format(name, tol))
   scene.accuracy = nil
   return wrong
@@ -214,7 +214,7 @@ local function judge(scene)
   local other, name = second_solution(scene, made)
   if not converged then
     local text = ("%s: %s (%s)"):format(s.method, reason, name and name .. " converges" or "no second method converges")
-    if not other and scene.dimension and lost_in_rounding(scene, made, s, factor) then return "refused" end
+    if scene.dimension and lost_in_rounding(scene, made, s, factor) then return "refused" end
     if not other and scene.coulomb and balanced(scene, "friction") ~= "solvable" then return "in doubt", text end
     return "not converged", names_methods(reason) and text or text .. ": THE REASON NAMES NO METHOD THAT WAS TRIED"
   end

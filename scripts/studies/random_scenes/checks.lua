@@ -245,7 +245,8 @@ local function check_equilibrium(scene, made, solution, contacts, supports, tol,
   for _, sum in pairs(sums) do tol.gross = tol.gross + sum.gross end
   for k, sum in pairs(sums) do
     -- Beside the accuracy of forces: rounding of inner forces, a body's stiffness times its motion.
-    local rounding = 1e-12 * scene.stiffest * tol.length * scene.size^(scene.dimension - 2) + 1e-9 * tol.gross
+    -- What a loose tolerance leaves is beside all forces.
+    local rounding = 1e-12 * scene.stiffest * tol.length * scene.size^(scene.dimension - 2) + (scene.accuracy or 1e-9) * tol.gross
     if not (norm(sum.force) <= tol.accuracy * sum.gross + rounding) then -- also where it is not a number
       wrong("forces on b%d do not balance: %.3g of %.3g", k, norm(sum.force), sum.gross)
     elseif sum.whole and norm(sum.moment) > tol.accuracy * sum.gross_moment + rounding * extent then

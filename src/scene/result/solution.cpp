@@ -72,13 +72,11 @@ std::string resisted_by_cells(const Scene& scene, const Model& model, const prob
   return "";
 }
 
-/// As solver::settle(). A rotation that contact no wider than its cells resists is named as well. Contact rows whose pressure is rounding
-/// are open.
+/// As solver::settle(). A rotation that contact no wider than its cells resists is named as well.
 void settle(const Scene& scene, const Model& model, const problem::Problem& problem, const problem::Displacement& before, solver::Result& result) {
   if (!result.converged || problem.rows() == 0) return;
   const problem::FreeMotions free = solver::settle(problem, before, result);
   if (free.count == 0) result.reason += resisted_by_cells(scene, model, problem, free, result.state.lambda);
-  open_without_force(problem, result);
 }
 
 /// What a displacement that is not unique shall be near to: the step before, at the beginning rest; u itself where that step is not at hand.
@@ -99,6 +97,7 @@ Solution::Solution(std::shared_ptr<const Scene> scene, Model model, const proble
     settle(*scene_, model_, problem, state_before(past_, result_.state.u), result_);
   result_.clock.motions += watch.lap();
   residual_ = solver::judge(problem, result_, model_.softest);
+  if (result_.converged && result_.method != "enumeration") open_without_force(problem, result_);
   if (with_stiffness) rounding_of_forces_ = problem::rounding_of_forces(problem, result_.state), measure_.emplace(problem, result_.state);
   take_state(problem);
   for (const std::string& body : describe_nearly_free(*scene_, model_)) result_.reason += "; " + body;

@@ -204,6 +204,7 @@ void refine_rounded(const Problem& problem, const CondensedProblem& condensed, d
 /// bodies to rounding of stiffness times displacement.
 bool RowIteration::accept() {
   constexpr double kRoundings = 100;  // of a product K u
+  if (!converged() && best_residual_ <= settings_.tol) move_to(best_), result_.converged = true;  // what a method after it was to do better
   if (converged() || problem.blocks.empty() || astray(*this)) return converged();
   const Iterate best = best_.lambda.size() && !(residual() <= best_residual_) ? best_ : at_;
   problem::State state{condensed.recover(best.lambda, best.alpha), best.lambda};
