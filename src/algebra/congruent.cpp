@@ -4,7 +4,6 @@
 #include <limits>
 #include <numeric>
 #include <span>
-#include <utility>
 
 #include "base/buckets.hpp"
 #include "base/parallel.hpp"

@@ -1,18 +1,77 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iterator>
 #include <memory>
 #include <mutex>
+#include <stdexcept>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
-#include "algebra/entries_of.hpp"
 #include "algebra/field.hpp"
-#include "algebra/symmetric_product.hpp"
+#include "algebra/types.hpp"
 #include "base/error.hpp"
+#include "base/parallel.hpp"
 
 namespace dotyk::algebra {
+
+/// K_jj of a lower triangle, columns sorted; null where there is no such entry.
+inline const double* diagonal_entry(const SparseMatrix& lower, int j) {
+  const int first = lower.outerIndexPtr()[j];
+  return first < lower.outerIndexPtr()[j + 1] && lower.innerIndexPtr()[first] == j ? lower.valuePtr() + first : nullptr;
+}
+
+/// Calls visit(place among the numbers, row, column) for the entries of a lower triangle, compressed, columns sorted, in rows or columns of the unknowns that
+/// `of` flags by 1, in their order.
+/// Columns that end above the first of these unknowns, or begin below the last, are not read: mostly unknowns near each other have numbers near each other.
+template <class Visit>
+void each_entry_of(const SparseMatrix& lower, const std::vector<char>& of, const Visit& visit) {
+  const auto first = static_cast<int>(std::ranges::find(of, 1) - of.begin());
+  int last = static_cast<int>(of.size()) - 1;
+  while (last >= 0 && !of[last]) --last;
+  for (int j = 0; j <= last; ++j) {
+    const int begin = lower.outerIndexPtr()[j], end = lower.outerIndexPtr()[j + 1];
+    if (begin == end || lower.innerIndexPtr()[end - 1] < first) continue;
+    for (int k = begin; k < end; ++k)
+      if (const int i = lower.innerIndexPtr()[k]; of[i] || of[j]) visit(k, i, j);
+  }
+}
+
+/// The product A V of a symmetric matrix A, given as its lower triangle, with a vector V or a row-major matrix V, in V's number type. A is read once, whatever
+/// the number of columns. `of` is applied to each entry of A first: with the modulus the result is |A| V. The order of summation, and so rounding, depends on
+/// the number of threads.
+template <class Numbers, class Of = std::identity>
+typename Numbers::PlainObject symmetric_product(const SparseMatrix& lower, const Numbers& V, Of of = {}) {
+  using Plain = typename Numbers::PlainObject;
+  using Number = typename Numbers::Scalar;
+  static_assert(Numbers::ColsAtCompileTime == 1 || Numbers::IsRowMajor);
+  const int n = static_cast<int>(lower.cols());
+  constexpr Eigen::Index known = Numbers::ColsAtCompileTime;
+  const Eigen::Index count = known == Eigen::Dynamic ? V.cols() : known;
+  const auto add = [&](Number* to, int from, double a) {
+    for (Eigen::Index c = 0; c < count; ++c) to[c] += a * V.data()[from * count + c];
+  };
+  constexpr Eigen::Index kFew = 1'000'000;  // entries, for a thread
+  const int threads = threads_for(lower.nonZeros(), kFew);
+  Plain product = Plain::Zero(V.rows(), V.cols());
+  std::vector<Plain> beyond(static_cast<std::size_t>(threads));  // what a range of columns adds to the rows after it
+  parallel_ranges(n, threads, [&](int k, int first, int end) {
+    Plain& after = beyond[k] = Plain::Zero(n - end, V.cols());
+    for (int j = first; j < end; ++j)
+      for (SparseMatrix::InnerIterator it(lower, j); it; ++it) {
+        const int i = static_cast<int>(it.row());
+        if (i < j) continue;
+        const double a = of(it.value());
+        add(i < end ? product.data() + i * count : after.data() + (i - end) * count, j, a);
+        if (i != j) add(product.data() + j * count, i, a);
+      }
+  });
+  for (const Plain& after : beyond) product.bottomRows(after.rows()) += after;
+  return product;
+}
 
 using LongVector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
 
@@ -101,6 +160,45 @@ class SymmetricMatrix {
     std::once_flag once;
   };
   std::shared_ptr<Content> content_;
+};
+
+/// A diagonal block of a matrix in slices: the stiffness of one body, whose unknowns follow one another and are coupled to no others.
+class BlockOfSlices final : public SlicedMatrix {
+ public:
+  BlockOfSlices(std::shared_ptr<const SlicedMatrix> whole, Eigen::Index first, Eigen::Index size) : whole_(std::move(whole)), first_(first) {
+    diagonal_ = whole_->diagonal().segment(first, size), most_entries_ = whole_->most_entries(), hides_ = whole_->hides();
+  }
+  Vector times(const Eigen::Ref<const Vector>& x) const override { return own(whole_->times(padded(x))); }
+  Vector gross_times(const Vector& x) const override { return own(whole_->gross_times(padded(x))); }
+  StoredMatrix near(std::vector<char>& of, int layers) const override {
+    std::vector<char> all(static_cast<std::size_t>(whole_->diagonal().size()), 0);
+    const auto begin = all.begin() + first_, end = begin + std::ssize(of);
+    std::copy(of.begin(), of.end(), begin);
+    const StoredMatrix near = whole_->near(all, layers);
+    std::copy(begin, end, of.begin());
+    StoredMatrix own;
+    own = SparseMatrix(near.block(first_, first_, std::ssize(of), std::ssize(of)));
+    return own;
+  }
+
+  std::shared_ptr<Vectors> vectors(const std::vector<int>&) const override { throw std::logic_error("a block of slices has no vectors"); }
+  bool holds(const Vectors&) const override { return false; }
+  void add_load(Field&) const override { throw std::logic_error("a block of slices has no vectors"); }
+  void take_product(const LongField&, bool, Field&) const override { throw std::logic_error("a block of slices has no vectors"); }
+
+  const SlicedMatrix& whole() const { return *whole_; }
+  Eigen::Index first() const { return first_; }  ///< its first unknown among those of the whole
+
+ private:
+  Vector own(const Vector& of_all) const { return of_all.segment(first_, diagonal_.size()); }
+  Vector padded(const Eigen::Ref<const Vector>& x) const {
+    Vector all = Vector::Zero(whole_->diagonal().size());
+    all.segment(first_, x.size()) = x;
+    return all;
+  }
+
+  std::shared_ptr<const SlicedMatrix> whole_;
+  Eigen::Index first_;
 };
 
 }  // namespace dotyk::algebra

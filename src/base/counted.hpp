@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "base/error.hpp"
-#include "base/text.hpp"
 
 namespace dotyk {
 

@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "base/text.hpp"  // of which messages are made
+
 namespace dotyk {
 
 /// What a user asked for cannot be done as asked. The text says what was

@@ -10,7 +10,6 @@
 #include <string>
 
 #include "base/error.hpp"
-#include "base/text.hpp"
 
 namespace dotyk {
 

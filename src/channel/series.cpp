@@ -6,7 +6,6 @@
 
 #include "algebra/dense/quadrature.hpp"
 #include "base/error.hpp"
-#include "base/text.hpp"
 
 namespace dotyk::channel {
 namespace {

@@ -72,6 +72,14 @@ Eigen::Matrix3d fitted(const std::vector<Sample>& list, int dimension) {
   return T * of_eigenvalues((K + K.transpose()) / 2, [](double v) { return std::abs(v); }) * T.transpose();
 }
 
+Point apply(const std::array<Point, 3>& m, const Point& d) { return {dot(m[0], d), dot(m[1], d), dot(m[2], d)}; }
+
+/// With singular values of at most 1. Where directions of curvature differ by a small angle φ, (K₂ − K₁)(K₁ + K₂)⁻¹ has entries of
+/// 1/φ: the point where normals agree lies far outside of what curvatures tell. So limited, n is no farther from the mean than n₁ and −n₂.
+Small shortening(const Small& m) {
+  return m * of_eigenvalues(m.transpose() * m, [](double v) { return v > 1 ? 1 / std::sqrt(v) : 1; });
+}
+
 }  // namespace
 
 Curvatures::Curvatures(const Face& face) {
@@ -154,12 +162,6 @@ Point unit_derivative(const Point& v, const Point& dv) {
   return mesh::times(1 / mesh::length(v), mesh::minus(dv, mesh::times(dot(n, dv), n)));
 }
 
-namespace {
-
-Point apply(const std::array<Point, 3>& m, const Point& d) { return {dot(m[0], d), dot(m[1], d), dot(m[2], d)}; }
-
-}  // namespace
-
 Point mixed_normal(const Point& n1, const Point& inward, const std::array<Point, 3>& mix) {
   if (mix == kFirstDecides) return n1;
   if (mix == kSecondDecides) return inward;
@@ -183,16 +185,6 @@ Point mixed_normal_derivative(const Point& n1, const Point& d1, const Point& inw
   const Point dd = mesh::minus(mesh::minus(mesh::times(1 / c, d1), mesh::times(dc / (c * c), n1)), dmean);
   return unit_derivative(mesh::plus(mean, apply(mix, d)), mesh::plus(dmean, apply(mix, dd)));
 }
-
-namespace {
-
-/// With singular values of at most 1. Where directions of curvature differ by a small angle φ, (K₂ − K₁)(K₁ + K₂)⁻¹ has entries of
-/// 1/φ: the point where normals agree lies far outside of what curvatures tell. So limited, n is no farther from the mean than n₁ and −n₂.
-Small shortening(const Small& m) {
-  return m * of_eigenvalues(m.transpose() * m, [](double v) { return v > 1 ? 1 / std::sqrt(v) : 1; });
-}
-
-}  // namespace
 
 Frame frame_between(const Point& n1, const Eigen::Matrix3d& K1, const Point& inward, const Eigen::Matrix3d& K2, double flat, int dimension) {
   const auto T = basis(mesh::unit(mesh::plus(n1, inward)), dimension);

@@ -2,12 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <optional>
 #include <unordered_map>
 
 #include "base/error.hpp"
-#include "base/text.hpp"
 #include "contact/frame.hpp"
 #include "contact/second_facets.hpp"
 

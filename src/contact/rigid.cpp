@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "base/error.hpp"
-#include "base/text.hpp"
 #include "contact/frame.hpp"
 
 namespace dotyk::contact {
@@ -64,28 +63,6 @@ struct Parts {
   double c, far, below;
   Height of_unit;
 };
-
-}  // namespace
-
-double ball_gap(const RigidBall& ball, const Point& x, const Point& n) {
-  const Parts p(ball, x, n);
-  return p.c > 0 ? (p.far - ball.radius) * (p.far + ball.radius) / p.below : p.far - ball.radius;
-}
-
-double ball_gap_derivative(const RigidBall& ball, const Point& x, const Point& n, const Point& v, const Point& dn) {
-  const Parts p(ball, x, n);
-  const double dsquare = -2 * dot(p.w, v), dc = dot(p.w, dn) - dot(v, n);
-  if (!(p.c > 0)) return dsquare / (2 * p.far);
-  const double gap = (p.far - ball.radius) * (p.far + ball.radius) / p.below;
-  return (dsquare - gap * (dc + p.of_unit.ds / ball.radius * (dsquare - 2 * p.c * dc))) / p.below;
-}
-
-const char* name(const RigidShape& shape) {
-  static const char* names[] = {"rigid gap", "rigid plane", "rigid ball"};
-  return names[shape.index()];
-}
-
-namespace {
 
 /// Of cosines: normals that are perpendicular but for rounding do not face away.
 constexpr double kAway = 1e-6;
@@ -224,6 +201,24 @@ std::vector<ContactRow> make_rows(const mesh::Mesh& mesh, const std::vector<mesh
 }
 
 }  // namespace
+
+double ball_gap(const RigidBall& ball, const Point& x, const Point& n) {
+  const Parts p(ball, x, n);
+  return p.c > 0 ? (p.far - ball.radius) * (p.far + ball.radius) / p.below : p.far - ball.radius;
+}
+
+double ball_gap_derivative(const RigidBall& ball, const Point& x, const Point& n, const Point& v, const Point& dn) {
+  const Parts p(ball, x, n);
+  const double dsquare = -2 * dot(p.w, v), dc = dot(p.w, dn) - dot(v, n);
+  if (!(p.c > 0)) return dsquare / (2 * p.far);
+  const double gap = (p.far - ball.radius) * (p.far + ball.radius) / p.below;
+  return (dsquare - gap * (dc + p.of_unit.ds / ball.radius * (dsquare - 2 * p.c * dc))) / p.below;
+}
+
+const char* name(const RigidShape& shape) {
+  static const char* names[] = {"rigid gap", "rigid plane", "rigid ball"};
+  return names[shape.index()];
+}
 
 std::vector<ContactRow> against(const mesh::Mesh& mesh, const std::vector<mesh::Facet>& facets,
                                 const RigidShape& shape, const elasticity::ScalarField& added,

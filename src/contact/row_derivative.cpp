@@ -4,7 +4,6 @@
 #include <map>
 
 #include "base/error.hpp"
-#include "base/text.hpp"
 #include "contact/frame.hpp"
 #include "contact/tangents.hpp"
 #include "elasticity/shape_derivative.hpp"

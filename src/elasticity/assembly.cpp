@@ -1,9 +1,7 @@
 #include "elasticity/assembly.hpp"
 
-#include <algorithm>
 #include <cstdint>
 #include <numeric>
-#include <stdexcept>
 
 #include "base/error.hpp"
 #include "base/parallel.hpp"

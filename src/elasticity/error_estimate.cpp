@@ -3,13 +3,11 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
-#include <numeric>
 
-#include "algebra/dense/lu.hpp"
+#include "algebra/dense/decompositions.hpp"
 #include "elasticity/kernel.hpp"
-#include "mesh/submesh.hpp"
+#include "mesh/decomposition.hpp"
 
 namespace dotyk::elasticity {
 namespace {

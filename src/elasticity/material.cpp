@@ -4,7 +4,6 @@
 
 #include "algebra/dense/decompositions.hpp"
 #include "base/error.hpp"
-#include "base/text.hpp"
 
 namespace dotyk::elasticity {
 

@@ -6,7 +6,6 @@
 // (order 2). Used inside this room only.
 
 #include <array>
-#include <cmath>
 
 #include "mesh/element.hpp"
 

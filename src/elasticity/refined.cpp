@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "base/error.hpp"
 #include "base/memory.hpp"
-#include "base/text.hpp"
 #include "elasticity/kernel.hpp"
 #include "mesh/second_order.hpp"
-#include "mesh/submesh.hpp"
+#include "mesh/decomposition.hpp"
 
 namespace dotyk::elasticity {
 namespace {
@@ -38,30 +38,6 @@ void place_between(const mesh::Mesh& whole, mesh::Mesh& pieces) {
     }
   }
 }
-
-}  // namespace
-
-mesh::Mesh refined(const mesh::Mesh& mesh, Monitor* watch) {
-  const auto go_on = [&] { if (watch) watch->check(); };
-  mesh::Mesh second = mesh::second_order(mesh, watch);
-  go_on();
-  mesh::Mesh cut = mesh::cut_at_nodes(std::move(second));
-  if (mesh.topology().order == 1) return cut;
-  go_on();
-  mesh::Mesh pieces = mesh::second_order(std::move(cut), watch);
-  go_on();
-  dispatch(mesh.element, [&]<class E>() {
-    if constexpr (E::order == 2) place_between<E>(mesh, pieces);
-  });
-  return pieces;
-}
-
-double refining_bytes(const mesh::Mesh& mesh) {
-  const double pieces = mesh.dimension() == 2 ? 4 : 8;
-  return 2 * pieces * (4.0 * static_cast<double>(mesh.cells.size()) + 8.0 * static_cast<double>(mesh.coordinates.size()));
-}
-
-namespace {
 
 /// How many corners, edges, faces and cells a mesh has. A plane mesh has no faces here.
 struct Counts {
@@ -142,6 +118,26 @@ std::shared_ptr<const mesh::Coarser> coarser_of(const mesh::Submesh& layers, con
 
 }  // namespace
 
+mesh::Mesh refined(const mesh::Mesh& mesh, Monitor* watch) {
+  const auto go_on = [&] { if (watch) watch->check(); };
+  mesh::Mesh second = mesh::second_order(mesh, watch);
+  go_on();
+  mesh::Mesh cut = mesh::cut_at_nodes(std::move(second));
+  if (mesh.topology().order == 1) return cut;
+  go_on();
+  mesh::Mesh pieces = mesh::second_order(std::move(cut), watch);
+  go_on();
+  dispatch(mesh.element, [&]<class E>() {
+    if constexpr (E::order == 2) place_between<E>(mesh, pieces);
+  });
+  return pieces;
+}
+
+double refining_bytes(const mesh::Mesh& mesh) {
+  const double pieces = mesh.dimension() == 2 ? 4 : 8;
+  return 2 * pieces * (4.0 * static_cast<double>(mesh.cells.size()) + 8.0 * static_cast<double>(mesh.coordinates.size()));
+}
+
 NearBoundary refined_near_boundary(const mesh::Mesh& mesh, int times, Monitor* watch) {
   std::vector<int> nodes = mesh::coarser_nodes(mesh);  // of whole meshes
   nodes.insert(nodes.begin(), mesh.node_count());
@@ -176,6 +172,27 @@ NearBoundary refined_near_boundary(const mesh::Mesh& mesh, int times, Monitor* w
   now.mesh.whole = std::make_shared<mesh::Whole>(mesh::Whole{mesh::boundary(now.mesh), std::move(nodes), static_cast<std::int64_t>(count.cells)});
   now.mesh.generated = {now.mesh.coordinates.size(), now.mesh.cells.size()};
   return {std::move(now.mesh), std::move(parent), std::move(between)};
+}
+
+std::vector<algebra::CoarseFunctions> coarse_functions(const mesh::Mesh& mesh, SharedList<int> unknown, int unknowns, int levels) {
+  const int d = mesh.dimension();
+  std::vector<algebra::CoarseFunctions> all;
+  std::shared_ptr<const mesh::Coarser> coarser = mesh.coarser;
+  for (int level = 0; level < levels; ++level) {
+    algebra::CoarseFunctions functions{d, coarser ? std::shared_ptr<const Buckets>(coarser, &coarser->means) : nullptr, unknown, {}, unknowns, 0};
+    const int coarse = coarser ? coarser->node_count : functions.nodes();
+    std::vector<int> column(static_cast<std::size_t>(d) * coarse);
+    std::iota(column.begin(), column.end(), 0);
+    for (int node = 0; node < functions.nodes(); ++node)
+      if (const int p = functions.same(node); p >= 0)
+        for (int k = 0; k < d; ++k)
+          if (functions.row[d * node + k] < 0) column[d * p + k] = -1;
+    unknown = functions.column = std::move(column);
+    unknowns = functions.columns = d * coarse;
+    all.push_back(std::move(functions));
+    if (coarser) coarser = coarser->next;
+  }
+  return all;
 }
 
 }  // namespace dotyk::elasticity

@@ -9,7 +9,7 @@
 #include "algebra/dense/dense.hpp"
 #include "base/parallel.hpp"
 #include "elasticity/refined.hpp"
-#include "mesh/submesh.hpp"
+#include "mesh/decomposition.hpp"
 
 namespace dotyk::elasticity {
 

@@ -5,7 +5,7 @@
 #include "algebra/types.hpp"
 #include "base/motion.hpp"
 #include "elasticity/assembly.hpp"
-#include "elasticity/linear_force.hpp"
+#include "elasticity/load.hpp"
 
 namespace dotyk::elasticity {
 

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <iterator>
-#include <utility>
 
 #include "algebra/congruent.hpp"
 #include "base/error.hpp"
 #include "base/memory.hpp"
 #include "elasticity/refined.hpp"
-#include "mesh/submesh.hpp"
+#include "mesh/decomposition.hpp"
 
 namespace dotyk::elasticity {
 
@@ -28,44 +27,6 @@ std::vector<int> cells_about(const mesh::Mesh& mesh, std::vector<char> flagged, 
   }
   return cells;
 }
-
-}  // namespace
-
-Share share(const mesh::Mesh& mesh, const MaterialField& material, const LinearForce& force, const Numbering& numbering, const std::vector<char>& own, int body, int layers) {
-  std::vector<char> near(static_cast<std::size_t>(mesh.node_count()), 0);
-  for (std::size_t i = 0; i < own.size(); ++i)
-    if (own[i]) near[numbering.node[i]] = 1;
-  mesh::Submesh part = mesh::submesh(mesh, cells_about(mesh, std::move(near), layers));
-  Share out;
-  std::vector<int> fixed;
-  for (const int node : part.node)
-    for (int i = 0, dim = mesh.dimension(); i < dim; ++i) {
-      const int unknown = numbering.unknown[static_cast<std::size_t>(node) * dim + i];
-      fixed.push_back(unknown < 0);
-      if (unknown >= 0) out.unknowns.push_back(unknown);
-    }
-  out.lists = material.of(part.cell).lists();
-  Lists of_force = force.of(part.cell).lists();
-  const auto add = [](auto& to, auto&&... lists) { (to.push_back(std::move(lists)), ...); };
-  add(out.lists.whole, std::vector{static_cast<int>(mesh.element), body}, std::move(part.mesh.cells), std::move(fixed), std::move(of_force.whole[0]));
-  add(out.lists.real, std::move(part.mesh.coordinates), std::move(of_force.real[0]));
-  return out;
-}
-
-Share joined(std::vector<Share> of_bodies) {
-  Share all;
-  std::vector<int> sizes;  // how many lists each body has
-  for (const Share& share : of_bodies) sizes.insert(sizes.end(), {static_cast<int>(share.lists.whole.size()), static_cast<int>(share.lists.real.size())});
-  all.lists.whole.push_back(std::move(sizes));
-  for (Share& share : of_bodies) {
-    std::ranges::move(share.lists.whole, std::back_inserter(all.lists.whole));
-    std::ranges::move(share.lists.real, std::back_inserter(all.lists.real));
-    all.unknowns.insert(all.unknowns.end(), share.unknowns.begin(), share.unknowns.end());
-  }
-  return all;
-}
-
-namespace {
 
 /// From the lists of joined(), body by body.
 std::vector<ShareCells> cells_of(Lists lists) {
@@ -109,6 +70,40 @@ algebra::StoredMatrix assembled(std::vector<ShareCells> bodies) {
 }
 
 }  // namespace
+
+Share share(const mesh::Mesh& mesh, const MaterialField& material, const LinearForce& force, const Numbering& numbering, const std::vector<char>& own, int body, int layers) {
+  std::vector<char> near(static_cast<std::size_t>(mesh.node_count()), 0);
+  for (std::size_t i = 0; i < own.size(); ++i)
+    if (own[i]) near[numbering.node[i]] = 1;
+  mesh::Submesh part = mesh::submesh(mesh, cells_about(mesh, std::move(near), layers));
+  Share out;
+  std::vector<int> fixed;
+  for (const int node : part.node)
+    for (int i = 0, dim = mesh.dimension(); i < dim; ++i) {
+      const int unknown = numbering.unknown[static_cast<std::size_t>(node) * dim + i];
+      fixed.push_back(unknown < 0);
+      if (unknown >= 0) out.unknowns.push_back(unknown);
+    }
+  out.lists = material.of(part.cell).lists();
+  Lists of_force = force.of(part.cell).lists();
+  const auto add = [](auto& to, auto&&... lists) { (to.push_back(std::move(lists)), ...); };
+  add(out.lists.whole, std::vector{static_cast<int>(mesh.element), body}, std::move(part.mesh.cells), std::move(fixed), std::move(of_force.whole[0]));
+  add(out.lists.real, std::move(part.mesh.coordinates), std::move(of_force.real[0]));
+  return out;
+}
+
+Share joined(std::vector<Share> of_bodies) {
+  Share all;
+  std::vector<int> sizes;  // how many lists each body has
+  for (const Share& share : of_bodies) sizes.insert(sizes.end(), {static_cast<int>(share.lists.whole.size()), static_cast<int>(share.lists.real.size())});
+  all.lists.whole.push_back(std::move(sizes));
+  for (Share& share : of_bodies) {
+    std::ranges::move(share.lists.whole, std::back_inserter(all.lists.whole));
+    std::ranges::move(share.lists.real, std::back_inserter(all.lists.real));
+    all.unknowns.insert(all.unknowns.end(), share.unknowns.begin(), share.unknowns.end());
+  }
+  return all;
+}
 
 Buckets RefinableShare::refine() {
   std::vector<int> coarse(bodies_.size());

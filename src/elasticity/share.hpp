@@ -4,11 +4,11 @@
 #include <utility>
 #include <vector>
 
-#include "algebra/refinable.hpp"
+#include "algebra/coarse_functions.hpp"
 #include "algebra/types.hpp"
 #include "base/lists.hpp"
 #include "elasticity/assembly.hpp"
-#include "elasticity/linear_force.hpp"
+#include "elasticity/load.hpp"
 
 namespace dotyk::elasticity {
 

@@ -1,12 +1,9 @@
 #include <algorithm>
 #include <map>
-#include <stdexcept>
-#include <utility>
 #include <vector>
 
 #include "base/error.hpp"
 #include "base/memory.hpp"
-#include "base/text.hpp"
 #include "fclib/contact_problem.hpp"
 #include "fclib/hdf5_object.hpp"
 #include "reader/process.hpp"

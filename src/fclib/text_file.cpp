@@ -7,9 +7,8 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "base/in_quotes.hpp"
+#include "base/listed.hpp"
 #include "base/memory.hpp"
-#include "base/text.hpp"
 #include "fclib/contact_problem.hpp"
 
 namespace dotyk::fclib {

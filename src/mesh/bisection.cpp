@@ -5,8 +5,7 @@
 #include <map>
 
 #include "base/error.hpp"
-#include "base/text.hpp"
-#include "mesh/edge_key.hpp"
+#include "mesh/facet_table.hpp"
 
 namespace dotyk::mesh {
 namespace {

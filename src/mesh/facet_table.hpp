@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <climits>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -11,6 +12,12 @@
 #include "mesh/mesh.hpp"
 
 namespace dotyk::mesh {
+
+/// One number for an edge, whichever end comes first.
+inline std::uint64_t edge_key(int a, int b) {
+  const auto low = static_cast<std::uint64_t>(std::min(a, b)), high = static_cast<std::uint64_t>(std::max(a, b));
+  return low << 32 | high;
+}
 
 /// The facets of a mesh's cells, found by their corners in any order. The mesh must outlive the table.
 class FacetTable {

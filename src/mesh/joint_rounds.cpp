@@ -1,7 +1,7 @@
 #include <unordered_set>
 
 #include "mesh/bisection.hpp"
-#include "mesh/edge_key.hpp"
+#include "mesh/facet_table.hpp"
 
 namespace dotyk::mesh {
 

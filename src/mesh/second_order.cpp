@@ -46,61 +46,6 @@ class Between {
   std::vector<std::pair<FacetTable::Corners, int>> found_;
 };
 
-}  // namespace
-
-Mesh second_order(Mesh first, Monitor* watch) {
-  if (first.topology().order == 2) return first;
-  Mesh mesh;
-  mesh.element = second_order(first.element);
-  mesh.coordinates = first.coordinates;
-  mesh.parts = std::move(first.parts), mesh.whole = std::move(first.whole);
-  const ElementTopology& t = mesh.topology();
-  mesh.cells.resize(static_cast<std::size_t>(first.cell_count()) * t.nodes);
-  for (int c = 0; c < first.cell_count(); ++c)
-    std::copy_n(first.cell(c), t.corners, mesh.cells.begin() + static_cast<std::ptrdiff_t>(c) * t.nodes);
-
-  const int own = first.node_count(), each = static_cast<int>(t.between.size());
-  std::vector<int> made_by;  // of each new node a number, as Between counts them
-  const auto place = [&](int number, bool is_new) {
-    if (is_new) made_by.push_back(number);
-    mesh.cells[static_cast<std::size_t>(number / each) * t.nodes + t.corners + number % each] = own + static_cast<int>(made_by.size()) - 1;
-  };
-  if (t.between.back().size() == 8)  // a hexahedron's centre, which no other cell shares
-    for (int c = 0; c < first.cell_count(); ++c) place(c * each + each - 1, true);
-  for (const std::size_t corners : {2, 4}) {
-    if (corners == 4 && t.simplex()) continue;  // which has no nodes in faces
-    Between between(first, t, corners);
-    for (int i = 0; i < own; ++i) {
-      if (watch && i % 1000 == 0) watch->check();
-      between.with_least(i, place);
-    }
-  }
-
-  const auto each_corner = [&](std::size_t i, const auto& visit) {
-    for (const int k : t.between[static_cast<std::size_t>(made_by[i] % each)]) visit(first.cell(made_by[i] / each)[k]);
-  };
-  mesh.coordinates.reserve((own + made_by.size()) * static_cast<std::size_t>(t.dimension));
-  for (std::size_t i = 0; i < made_by.size(); ++i) {
-    int corners[8], count = 0;
-    each_corner(i, [&](int corner) { corners[count++] = corner; });
-    const Point x = first.mean(corners, count);
-    mesh.coordinates.insert(mesh.coordinates.end(), x.begin(), x.begin() + t.dimension);
-  }
-  mesh.coarser = std::make_shared<Coarser>(Coarser{Buckets(mesh.node_count(), [&](auto&& put) {
-    for (int i = 0; i < own; ++i) put(i, i);
-    for (std::size_t i = 0; i < made_by.size(); ++i) each_corner(i, [&](int corner) { put(own + static_cast<int>(i), corner); });
-  }), own, first.coarser});
-  if (first.one_piece()) mesh.generated = {mesh.coordinates.size(), mesh.cells.size()};
-  return mesh;
-}
-
-Mesh of_family(Mesh first, Family family) {
-  if (family == Family::p2 || family == Family::q2) return second_order(std::move(first));
-  return first;
-}
-
-namespace {
-
 /// Corners of the pieces of a cell or a facet of order 2, by its corners and dimension.
 using PieceCorners = std::vector<std::vector<int>>;
 
@@ -179,6 +124,57 @@ std::size_t best_cut(const Mesh& whole, int cell) {
 }
 
 }  // namespace
+
+Mesh second_order(Mesh first, Monitor* watch) {
+  if (first.topology().order == 2) return first;
+  Mesh mesh;
+  mesh.element = second_order(first.element);
+  mesh.coordinates = first.coordinates;
+  mesh.parts = std::move(first.parts), mesh.whole = std::move(first.whole);
+  const ElementTopology& t = mesh.topology();
+  mesh.cells.resize(static_cast<std::size_t>(first.cell_count()) * t.nodes);
+  for (int c = 0; c < first.cell_count(); ++c)
+    std::copy_n(first.cell(c), t.corners, mesh.cells.begin() + static_cast<std::ptrdiff_t>(c) * t.nodes);
+
+  const int own = first.node_count(), each = static_cast<int>(t.between.size());
+  std::vector<int> made_by;  // of each new node a number, as Between counts them
+  const auto place = [&](int number, bool is_new) {
+    if (is_new) made_by.push_back(number);
+    mesh.cells[static_cast<std::size_t>(number / each) * t.nodes + t.corners + number % each] = own + static_cast<int>(made_by.size()) - 1;
+  };
+  if (t.between.back().size() == 8)  // a hexahedron's centre, which no other cell shares
+    for (int c = 0; c < first.cell_count(); ++c) place(c * each + each - 1, true);
+  for (const std::size_t corners : {2, 4}) {
+    if (corners == 4 && t.simplex()) continue;  // which has no nodes in faces
+    Between between(first, t, corners);
+    for (int i = 0; i < own; ++i) {
+      if (watch && i % 1000 == 0) watch->check();
+      between.with_least(i, place);
+    }
+  }
+
+  const auto each_corner = [&](std::size_t i, const auto& visit) {
+    for (const int k : t.between[static_cast<std::size_t>(made_by[i] % each)]) visit(first.cell(made_by[i] / each)[k]);
+  };
+  mesh.coordinates.reserve((own + made_by.size()) * static_cast<std::size_t>(t.dimension));
+  for (std::size_t i = 0; i < made_by.size(); ++i) {
+    int corners[8], count = 0;
+    each_corner(i, [&](int corner) { corners[count++] = corner; });
+    const Point x = first.mean(corners, count);
+    mesh.coordinates.insert(mesh.coordinates.end(), x.begin(), x.begin() + t.dimension);
+  }
+  mesh.coarser = std::make_shared<Coarser>(Coarser{Buckets(mesh.node_count(), [&](auto&& put) {
+    for (int i = 0; i < own; ++i) put(i, i);
+    for (std::size_t i = 0; i < made_by.size(); ++i) each_corner(i, [&](int corner) { put(own + static_cast<int>(i), corner); });
+  }), own, first.coarser});
+  if (first.one_piece()) mesh.generated = {mesh.coordinates.size(), mesh.cells.size()};
+  return mesh;
+}
+
+Mesh of_family(Mesh first, Family family) {
+  if (family == Family::p2 || family == Family::q2) return second_order(std::move(first));
+  return first;
+}
 
 Mesh cut_at_nodes(Mesh whole) {
   if (whole.topology().order == 1) return whole;

@@ -6,7 +6,6 @@
 #include <set>
 
 #include "base/error.hpp"
-#include "base/text.hpp"
 #include "meshfile/cells.hpp"
 #include "mesh/facet_table.hpp"
 

@@ -1,13 +1,11 @@
 #include "meshfile/cells.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <set>
 
 #include "base/error.hpp"
 #include "base/memory.hpp"
-#include "base/text.hpp"
 #include "mesh/second_order.hpp"
 
 namespace dotyk::meshfile {

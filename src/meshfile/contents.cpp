@@ -3,7 +3,6 @@
 #include <cstdint>
 
 #include "base/error.hpp"
-#include "base/text.hpp"
 #include "reader/bytes.hpp"
 
 namespace dotyk::meshfile {

@@ -15,9 +15,7 @@
 #include "base/error.hpp"
 #include "base/memory.hpp"
 #include "base/readable_file.hpp"
-#include "base/text.hpp"
-#include "meshfile/mfem.hpp"
-#include "meshfile/msh.hpp"
+#include "meshfile/formats.hpp"
 #include "reader/process.hpp"
 
 namespace dotyk::meshfile {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "base/monitor.hpp"
 #include "meshfile/assemble.hpp"

@@ -1,4 +1,4 @@
-#include "meshfile/msh.hpp"
+#include "meshfile/formats.hpp"
 
 #include <cstdint>
 #include <cstdlib>

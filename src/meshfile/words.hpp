@@ -7,8 +7,7 @@
 #include <string_view>
 
 #include "base/error.hpp"
-#include "base/in_quotes.hpp"
-#include "base/text.hpp"
+#include "base/listed.hpp"
 
 namespace dotyk::meshfile {
 

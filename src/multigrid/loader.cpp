@@ -9,7 +9,6 @@
 #include "algebra/direct/blas_threads.hpp"
 #include "base/error.hpp"
 #include "base/open_library.hpp"
-#include "base/text.hpp"
 #include "multigrid/multigrid.hpp"
 #include "multigrid/start_ranks.hpp"
 
@@ -50,6 +49,11 @@ Function* door(const char* name) {
   }
 }
 
+void end_at_exit() {
+  static void (*const end)() = door<void()>("dotyk_multigrid_end_ranks");
+  std::atexit([] { end(); });
+}
+
 }  // namespace
 
 std::unique_ptr<algebra::SpdSolver> make_solver(const Matrix& matrix, Monitor& monitor) {
@@ -86,15 +90,6 @@ std::vector<Lists> visit(const Visit& visit) {
 }
 
 void work_for_rank_0(bool spawned, const ShareMakers& makers) { door<void(bool, const ShareMakers&)>("dotyk_multigrid_work")(spawned, makers); }
-
-namespace {
-
-void end_at_exit() {
-  static void (*const end)() = door<void()>("dotyk_multigrid_end_ranks");
-  std::atexit([] { end(); });
-}
-
-}  // namespace
 
 void meet_ranks() {
   door<void()>("dotyk_multigrid_meet")();

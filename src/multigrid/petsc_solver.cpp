@@ -9,7 +9,7 @@
 #include "base/text.hpp"
 #include "multigrid/cycle/cycle.hpp"
 #include "multigrid/rank_slices.hpp"
-#include "multigrid/shares/changes.hpp"
+#include "multigrid/shares/messages.hpp"
 
 namespace dotyk::multigrid {
 

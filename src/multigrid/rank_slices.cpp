@@ -11,9 +11,7 @@
 #include "base/error.hpp"
 #include "base/memory.hpp"
 #include "base/parallel.hpp"
-#include "base/text.hpp"
 #include "multigrid/processes/petsc_session.hpp"
-#include "multigrid/shares/functions.hpp"
 #include "multigrid/shares/messages.hpp"
 
 namespace dotyk::multigrid {
@@ -45,6 +43,31 @@ void send(const Ranks& ranks, int to, const Lists& lists, const OwnNumbers& own)
 
 HalfRows assembled(const ShareMakers& makers, Lists lists, const OwnNumbers& own) {
   return own_rows(makers.assemble(std::move(lists)), own.slot, own.block, own.first, own.nodes);
+}
+
+/// A lower triangle, compressed, columns sorted. each(begin, end, visit) calls visit(row, column, number) for the entries in columns begin … end − 1, in any
+/// order. Several threads call it, twice.
+template <class Each>
+algebra::StoredMatrix lower_triangle(int size, const Each& each) {
+  constexpr int kFew = 10'000;  // columns, for a thread
+  const auto each_range = [&](const auto& work) { parallel_ranges(size, threads_for(size, kFew), [&](int, int first, int end) { work(first, end); }); };
+  algebra::StoredMatrix lower;
+  lower.resize(size, size);
+  int* starts = lower.outerIndexPtr();
+  each_range([&](int first, int end) { each(first, end, [&](int, int column, double) { ++starts[column + 1]; }); });
+  std::partial_sum(starts, starts + size + 1, starts);
+  lower.resizeNonZeros(starts[size]);
+  int* rows = lower.innerIndexPtr();
+  double* numbers = lower.valuePtr();
+  each_range([&](int first, int end) {
+    std::vector<int> next(starts + first, starts + end);
+    each(first, end, [&](int row, int column, double number) {
+      const int at = next[column - first]++;
+      rows[at] = row, numbers[at] = number;
+    });
+    sort_entries(starts, first, end, rows, numbers);
+  });
+  return lower;
 }
 
 }  // namespace
@@ -200,35 +223,6 @@ Vector RankSlices::product(Slice::Product how, const Vector& x) const {
 Vector RankSlices::times(const Eigen::Ref<const Vector>& x) const { return product(Slice::Product::plain, x); }
 
 Vector RankSlices::gross_times(const Vector& x) const { return product(Slice::Product::gross, x.cwiseAbs()); }
-
-namespace {
-
-/// A lower triangle, compressed, columns sorted. each(begin, end, visit) calls visit(row, column, number) for the entries in columns begin … end − 1, in any
-/// order. Several threads call it, twice.
-template <class Each>
-algebra::StoredMatrix lower_triangle(int size, const Each& each) {
-  constexpr int kFew = 10'000;  // columns, for a thread
-  const auto each_range = [&](const auto& work) { parallel_ranges(size, threads_for(size, kFew), [&](int, int first, int end) { work(first, end); }); };
-  algebra::StoredMatrix lower;
-  lower.resize(size, size);
-  int* starts = lower.outerIndexPtr();
-  each_range([&](int first, int end) { each(first, end, [&](int, int column, double) { ++starts[column + 1]; }); });
-  std::partial_sum(starts, starts + size + 1, starts);
-  lower.resizeNonZeros(starts[size]);
-  int* rows = lower.innerIndexPtr();
-  double* numbers = lower.valuePtr();
-  each_range([&](int first, int end) {
-    std::vector<int> next(starts + first, starts + end);
-    each(first, end, [&](int row, int column, double number) {
-      const int at = next[column - first]++;
-      rows[at] = row, numbers[at] = number;
-    });
-    sort_entries(starts, first, end, rows, numbers);
-  });
-  return lower;
-}
-
-}  // namespace
 
 RankSlices::Asked RankSlices::ask(const std::vector<int>& unknowns) const {
   const Ranks& ranks = workers_.ranks();

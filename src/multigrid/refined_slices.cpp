@@ -7,7 +7,6 @@
 
 #include "multigrid/processes/petsc_session.hpp"
 #include "multigrid/rank_slices.hpp"
-#include "multigrid/shares/functions.hpp"
 #include "multigrid/shares/messages.hpp"
 #include "multigrid/shares/refined_share.hpp"
 

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "algebra/coarse_functions.hpp"
-#include "algebra/refinable.hpp"
 #include "algebra/symmetric_matrix.hpp"
 #include "base/lists.hpp"
 
@@ -22,7 +21,7 @@ struct VisitedCells {
   const std::vector<int>& told;    ///< numbers of nodes that rank 0 names
   int rank;
 };
-/// What they are visited for: see script/visits.hpp.
+/// What they are visited for: see visit() in script/main.cpp.
 enum class VisitFor : int { estimate, point, write };
 /// Computes from these cells what this process tells rank 0. `said`: what rank 0 has told all processes.
 using VisitCells = Lists (*)(const VisitedCells& at, const Lists& said);

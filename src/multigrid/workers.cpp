@@ -12,7 +12,6 @@
 #include <memory>
 #include <new>
 #include <sstream>
-#include <string>
 
 #include "base/text.hpp"
 #include "multigrid/cycle/cycle.hpp"
@@ -147,18 +146,14 @@ void finalise(bool clean) {
   else MPI_Finalize();
 }
 
-}  // namespace
-
-bool several_ranks_have_work(double unknowns) { return ranks_now() > 1 && unknowns >= kFewestUnknowns * ranks_now(); }
-
-namespace {
-
 int next_number() {
   static int last = 0;
   return ++last;
 }
 
 }  // namespace
+
+bool several_ranks_have_work(double unknowns) { return ranks_now() > 1 && unknowns >= kFewestUnknowns * ranks_now(); }
 
 Workers workers_for(double unknowns) { return {several_ranks_have_work(unknowns) ? world() : Ranks(MPI_COMM_SELF), next_number()}; }
 

@@ -5,7 +5,6 @@
 #include <Eigen/LU>
 
 #include "base/error.hpp"
-#include "base/text.hpp"
 
 namespace dotyk::plate {
 

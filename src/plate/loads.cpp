@@ -7,7 +7,6 @@
 
 #include "algebra/dense/quadrature.hpp"
 #include "base/error.hpp"
-#include "base/text.hpp"
 
 namespace dotyk::plate {
 
@@ -101,26 +100,6 @@ void add_line(const LineLoad& line, const Space& space, const Finder& finder, Ve
   }
 }
 
-}  // namespace
-
-Vector loads(const Plate& plate, const Space& space) {
-  Vector load = Vector::Zero(space.count());
-  add_distributed(plate, space, load);
-  if (plate.point_loads.empty() && plate.line_loads.empty() && plate.supports.empty()) return load;
-  const Finder finder(space);
-  const auto add_point = [&](double x, double y, double force, const char* what) {
-    const Place place = finder.find({x, y}, what);
-    add(load, space.deflection_at(place.cell, place.at), force);
-  };
-  for (const PointLoad& point : plate.point_loads) add_point(point.x, point.y, point.force, "a point load:");
-  for (const PointSupport& s : plate.supports)
-    if (s.deflection.kind == problem::SupportLaw::Kind::load) add_point(s.x, s.y, s.deflection.value, "a support:");
-  for (const LineLoad& line : plate.line_loads) add_line(line, space, finder, load);
-  return load;
-}
-
-namespace {
-
 /// The L² projection of the load along a side on the linear functions: its values at the two ends. Nothing where the law is no load at one of Gauss's points.
 std::optional<Vector2d> projected(const LawField& law, const std::string& part, const Space& space, const Edge& edge) {
   const Vector2d a = node_position(*space.mesh, edge.node[0]), along = node_position(*space.mesh, edge.node[1]) - a;
@@ -141,6 +120,22 @@ struct VertexLoad {
 };
 
 }  // namespace
+
+Vector loads(const Plate& plate, const Space& space) {
+  Vector load = Vector::Zero(space.count());
+  add_distributed(plate, space, load);
+  if (plate.point_loads.empty() && plate.line_loads.empty() && plate.supports.empty()) return load;
+  const Finder finder(space);
+  const auto add_point = [&](double x, double y, double force, const char* what) {
+    const Place place = finder.find({x, y}, what);
+    add(load, space.deflection_at(place.cell, place.at), force);
+  };
+  for (const PointLoad& point : plate.point_loads) add_point(point.x, point.y, point.force, "a point load:");
+  for (const PointSupport& s : plate.supports)
+    if (s.deflection.kind == problem::SupportLaw::Kind::load) add_point(s.x, s.y, s.deflection.value, "a support:");
+  for (const LineLoad& line : plate.line_loads) add_line(line, space, finder, load);
+  return load;
+}
 
 void add_law_loads(const Plate& plate, const Space& space, std::vector<Sample>& deflections, std::vector<Sample>& rotations, Vector& load) {
   using Kind = problem::SupportLaw::Kind;

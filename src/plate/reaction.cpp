@@ -5,7 +5,7 @@
 #include <map>
 
 #include "algebra/dense/decompositions.hpp"
-#include "plate/element/stiffness.hpp"
+#include "plate/model.hpp"
 
 namespace dotyk::plate {
 

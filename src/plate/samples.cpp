@@ -3,7 +3,6 @@
 #include <map>
 
 #include "base/error.hpp"
-#include "base/text.hpp"
 
 namespace dotyk::plate {
 

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "algebra/dense/lu.hpp"
+#include "algebra/dense/decompositions.hpp"
 #include "algebra/types.hpp"
 #include "base/stopwatch.hpp"
 #include "base/text.hpp"

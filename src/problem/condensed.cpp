@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "algebra/dense/dense.hpp"
-#include "algebra/direct/factor_in_threads.hpp"
+#include "algebra/direct/blas_threads.hpp"
 #include "algebra/direct/stop_factoring.hpp"
 #include "base/error.hpp"
 #include "base/memory.hpp"

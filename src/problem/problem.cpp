@@ -4,7 +4,7 @@
 #include <cmath>
 #include <type_traits>
 
-#include "algebra/block_of_slices.hpp"
+#include "algebra/symmetric_matrix.hpp"
 #include "algebra/congruent.hpp"
 #include "algebra/dense/generalised_inverse.hpp"
 #include "base/error.hpp"

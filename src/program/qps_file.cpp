@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "base/error.hpp"
-#include "base/in_quotes.hpp"
+#include "base/listed.hpp"
 #include "base/memory.hpp"
 #include "base/readable_file.hpp"
 #include "base/text.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "algebra/dense/lu.hpp"
+#include "algebra/dense/decompositions.hpp"
 #include "program/kkt.hpp"
 
 namespace dotyk::program {

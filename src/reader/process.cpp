@@ -18,7 +18,6 @@
 #include "base/error.hpp"
 #include "base/memory.hpp"
 #include "base/open_library.hpp"
-#include "base/text.hpp"
 #include "reader/bytes.hpp"
 
 extern char** environ;

@@ -1,7 +1,6 @@
 #include "script/interpreter.hpp"
 
 #include <new>
-#include <stdexcept>
 
 #include "script/bind/bind.hpp"
 #include "script/prompt/kept_locals.hpp"
@@ -11,7 +10,6 @@
 #include "script/bridge/lua_side.hpp"
 #include "script/bridge/position.hpp"
 #include "script/bridge/push.hpp"
-#include "script/guard/strict.hpp"
 
 namespace dotyk::script {
 namespace {

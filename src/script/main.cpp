@@ -23,19 +23,20 @@
 #include <unistd.h>
 
 #include "elasticity/share.hpp"
+#include "figure/compose/compose.hpp"
+#include "multigrid/slices.hpp"
 #include "multigrid/start_ranks.hpp"
+#include "scene/result/inner_cells.hpp"
 #include "script/interpreter.hpp"
 #include "script/prompt/interrupt.hpp"
 #include "script/prompt/line_reader.hpp"
 #include "script/bridge/library.hpp"
 #include "script/bridge/lua_side.hpp"
 #include "script/guard/harmless_output.hpp"
-#include "script/guard/landlock.hpp"
 #include "script/guard/manifest.hpp"
 #include "script/guard/process_limits.hpp"
 #include "script/prompt/prompt.hpp"
 #include "script/guard/safe.hpp"
-#include "script/visits.hpp"
 
 namespace {
 
@@ -235,6 +236,17 @@ int run(const Command& command) {
   return status;
 }
 
+/// What any rank makes of its cells when rank 0 visits them.
+dotyk::multigrid::VisitCells visit(dotyk::multigrid::VisitFor what) {
+  using enum dotyk::multigrid::VisitFor;
+  switch (what) {
+    case estimate: return dotyk::scene::estimate_cells;
+    case point: return dotyk::scene::values_at_point;
+    case write: return dotyk::figure::write_cells;
+  }
+  throw std::logic_error("a visit for nothing known");
+}
+
 }  // namespace
 
 int main(int count, char** words) {
@@ -243,7 +255,7 @@ int main(int count, char** words) {
     const bool spawned = count == 2 && std::string(words[1]) == "--worker";  // by dotyk.ranks
     if (place.rank > 0 || spawned) {
       std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of whoever writes it
-      dotyk::multigrid::work_for_rank_0(spawned, {dotyk::elasticity::assemble_share, dotyk::elasticity::refinable_share, dotyk::script::visit});
+      dotyk::multigrid::work_for_rank_0(spawned, {dotyk::elasticity::assemble_share, dotyk::elasticity::refinable_share, visit});
       return 0;
     }
     dotyk::multigrid::take_word_worker();

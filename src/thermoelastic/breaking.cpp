@@ -2,7 +2,6 @@
 #include <algorithm>
 
 #include "base/error.hpp"
-#include "base/text.hpp"
 #include "thermoelastic/stepping.hpp"
 
 namespace dotyk::thermoelastic {

@@ -4,7 +4,6 @@
 
 #include "algebra/dense/decompositions.hpp"
 #include "base/error.hpp"
-#include "base/text.hpp"
 #include "beam/solvable.hpp"
 #include "problem/rows.hpp"
 #include "problem/solvability.hpp"

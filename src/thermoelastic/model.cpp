@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "base/error.hpp"
-#include "base/text.hpp"
 #include "beam/beam.hpp"
 
 namespace dotyk::thermoelastic {

@@ -1,6 +1,5 @@
 // What a thermoelastic beam does at its present time.
 #include "base/error.hpp"
-#include "base/text.hpp"
 #include "thermoelastic/stepping.hpp"
 
 namespace dotyk::thermoelastic {

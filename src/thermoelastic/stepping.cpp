@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "base/error.hpp"
-#include "base/text.hpp"
 
 namespace dotyk::thermoelastic {
 

@@ -3,51 +3,26 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "algebra/dense/decompositions.hpp"
+#include "algebra/dense/dense.hpp"
+
 namespace dotyk::thermoelastic {
+namespace {
 
 using algebra::DenseMatrix;
 using algebra::SparseMatrix;
 using algebra::Vector;
 
-Condensation::Condensation(const SparseMatrix& lower, std::vector<int> gamma) : gamma_(std::move(gamma)) {
-  std::vector<int> place(lower.rows(), 0);  // of an unknown among the inner ones; −1 − its place in Γ for those
-  const int count = static_cast<int>(gamma_.size());
-  for (int k = 0; k < count; ++k) place[gamma_[k]] = -1 - k;
-  for (std::size_t i = 0; i < place.size(); ++i)
-    if (place[i] >= 0) place[i] = static_cast<int>(inner_.size()), inner_.push_back(static_cast<int>(i));
-  const int inner = static_cast<int>(inner_.size());
-  std::vector<Eigen::Triplet<double>> entries;
-  DenseMatrix across = DenseMatrix::Zero(inner, count);
-  S_ = DenseMatrix::Zero(count, count);
-  for (int j = 0; j < lower.outerSize(); ++j)
-    for (SparseMatrix::InnerIterator a(lower, j); a; ++a) {
-      const int p = place[a.row()], q = place[j];
-      if (p >= 0 && q >= 0) entries.emplace_back(p, q, a.value());
-      else if (p < 0 && q < 0) S_(-1 - p, -1 - q) = S_(-1 - q, -1 - p) = a.value();
-      else if (q < 0) across(p, -1 - q) = a.value();
-      else across(q, -1 - p) = a.value();
-    }
-  SparseMatrix interior(inner, inner);
-  interior.setFromTriplets(entries.begin(), entries.end());
-  factor_.emplace(interior);
-  if (!factor_->factor(interior))
-    throw std::runtime_error("its matrix cannot be factored; choose units in which its numbers are moderate");
-  W_.resize(across.rows(), count);
-  for (int k = 0; k < count; ++k) W_.col(k) = -factor_->solve(across.col(k));
-  S_ += across.transpose() * W_;
-  S_ = (0.5 * (S_ + S_.transpose())).eval();
+/// What a motion does to the unknowns that have laws: laws × motions.
+DenseMatrix on_laws(const Part& part) {
+  DenseMatrix N(part.held.size(), part.kernel.cols());
+  for (std::size_t i = 0; i < part.held.size(); ++i)
+    N.row(static_cast<int>(i)) = part.kernel.row(part.held[i].unknown - part.first);
+  return N;
 }
 
-Vector Condensation::condensed(const Vector& b) const { return b(gamma_) + W_.transpose() * b(inner_); }
-
-Vector Condensation::recovered(const Vector& b, const Vector& on_gamma) const {
-  Vector x(b.size());
-  x(inner_) = factor_->solve(b(inner_)) + W_ * on_gamma;
-  x(gamma_) = on_gamma;
-  return x;
-}
-
-namespace {
+/// Motions have amounts of one size; a law nearer than this part of it to having no say has none.
+constexpr double kNoSay = 1e-9;
 
 using Entries = std::vector<Eigen::Triplet<double>>;
 
@@ -87,6 +62,97 @@ void finish(const Model& model, Fields& fields, const std::vector<int>& parts) {
 }
 
 }  // namespace
+
+bool determinate(const Part& part) {
+  const DenseMatrix N = on_laws(part);
+  if (N.rows() == 0) return true;
+  if (N.rows() > N.cols()) return false;
+  const Vector values = algebra::singular_values(N);
+  return values[values.size() - 1] > kNoSay * values[0];
+}
+
+std::optional<Static> by_statics(const Part& part, const Forces& forces) {
+  const Vector f = forces.f.segment(part.first, part.effect.unknowns());
+  const DenseMatrix N = on_laws(part);
+  const Vector e = part.kernel.transpose() * f;
+  Static out{Vector::Zero(N.rows()), Vector::Zero(N.rows()), {}};
+  if (N.rows() > 0) out.reactions = -algebra::least_squares(DenseMatrix(N.transpose()), e);
+  const Vector scale = part.kernel.cwiseAbs().transpose() * f.cwiseAbs();
+  const Vector left = e + N.transpose() * out.reactions;
+  if ((left.array().abs() > kNoSay * scale.array()).any()) return std::nullopt;
+  Vector all = f;
+  for (std::size_t i = 0; i < part.held.size(); ++i) {
+    const Held& held = part.held[i];
+    const double r = out.reactions[static_cast<int>(i)];
+    const auto v = problem::sole_displacement(held.law, held.turn * r * held.unit);
+    if (!v) return std::nullopt;
+    out.w[static_cast<int>(i)] = held.unit * (held.turn * *v + held.place(forces.supports));
+    all[held.unknown - part.first] += r;
+  }
+  out.stress = part.effect.stress(all);
+  return out;
+}
+
+Vector displacement(const Part& part, const OnCells& strain, const Vector& w) {
+  Vector u = part.effect.displacement(strain);
+  const DenseMatrix N = on_laws(part);
+  if (N.rows() > 0) {
+    Vector missing = w;
+    for (std::size_t i = 0; i < part.held.size(); ++i) missing[static_cast<int>(i)] -= u[part.held[i].unknown - part.first];
+    u += part.kernel * algebra::MinimumNorm(N).solve(missing);
+  }
+  remove_unnoticed(part, u);
+  return u;
+}
+
+void remove_unnoticed(const Part& part, Eigen::Ref<Vector> u) {
+  const DenseMatrix N = on_laws(part);
+  DenseMatrix motions = part.kernel;
+  if (N.rows() > 0) {
+    const algebra::PivotedLu lu(N);
+    if (lu.rank() == N.cols()) return;
+    motions = part.kernel * lu.kernel();
+  }
+  u -= motions * algebra::least_squares(motions, Vector(u));
+}
+
+Condensation::Condensation(const SparseMatrix& lower, std::vector<int> gamma) : gamma_(std::move(gamma)) {
+  std::vector<int> place(lower.rows(), 0);  // of an unknown among the inner ones; −1 − its place in Γ for those
+  const int count = static_cast<int>(gamma_.size());
+  for (int k = 0; k < count; ++k) place[gamma_[k]] = -1 - k;
+  for (std::size_t i = 0; i < place.size(); ++i)
+    if (place[i] >= 0) place[i] = static_cast<int>(inner_.size()), inner_.push_back(static_cast<int>(i));
+  const int inner = static_cast<int>(inner_.size());
+  std::vector<Eigen::Triplet<double>> entries;
+  DenseMatrix across = DenseMatrix::Zero(inner, count);
+  S_ = DenseMatrix::Zero(count, count);
+  for (int j = 0; j < lower.outerSize(); ++j)
+    for (SparseMatrix::InnerIterator a(lower, j); a; ++a) {
+      const int p = place[a.row()], q = place[j];
+      if (p >= 0 && q >= 0) entries.emplace_back(p, q, a.value());
+      else if (p < 0 && q < 0) S_(-1 - p, -1 - q) = S_(-1 - q, -1 - p) = a.value();
+      else if (q < 0) across(p, -1 - q) = a.value();
+      else across(q, -1 - p) = a.value();
+    }
+  SparseMatrix interior(inner, inner);
+  interior.setFromTriplets(entries.begin(), entries.end());
+  factor_.emplace(interior);
+  if (!factor_->factor(interior))
+    throw std::runtime_error("its matrix cannot be factored; choose units in which its numbers are moderate");
+  W_.resize(across.rows(), count);
+  for (int k = 0; k < count; ++k) W_.col(k) = -factor_->solve(across.col(k));
+  S_ += across.transpose() * W_;
+  S_ = (0.5 * (S_ + S_.transpose())).eval();
+}
+
+Vector Condensation::condensed(const Vector& b) const { return b(gamma_) + W_.transpose() * b(inner_); }
+
+Vector Condensation::recovered(const Vector& b, const Vector& on_gamma) const {
+  Vector x(b.size());
+  x(inner_) = factor_->solve(b(inner_)) + W_ * on_gamma;
+  x(gamma_) = on_gamma;
+  return x;
+}
 
 System::System(const Model& model, std::vector<char> decomposed, double tau)
     : model_(model), decomposed_(std::move(decomposed)), tau_(tau) {

@@ -1,4 +1,4 @@
-#include "algebra/direct/factor_in_threads.hpp"
+#include "algebra/direct/blas_threads.hpp"
 
 #include <doctest/doctest.h>
 

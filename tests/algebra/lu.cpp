@@ -1,4 +1,4 @@
-#include "algebra/dense/lu.hpp"
+#include "algebra/dense/decompositions.hpp"
 
 #include <doctest/doctest.h>
 

@@ -7,7 +7,6 @@
 
 #include "algebra/dense/decompositions.hpp"
 #include "algebra/krylov/block_cg.hpp"
-#include "algebra/krylov/recycling.hpp"
 #include "base/error.hpp"
 #include "iterations.hpp"
 #include "spd_matrices.hpp"

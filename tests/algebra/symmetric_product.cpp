@@ -1,4 +1,4 @@
-#include "algebra/symmetric_product.hpp"
+#include "algebra/symmetric_matrix.hpp"
 
 #include <doctest/doctest.h>
 

@@ -10,7 +10,6 @@
 #include <set>
 
 #include "../support/elastic.hpp"
-#include "elasticity/coarse_functions.hpp"
 #include "elasticity/stress.hpp"
 #include "mesh/generators.hpp"
 

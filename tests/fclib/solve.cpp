@@ -1,4 +1,4 @@
-#include "fclib/solve.hpp"
+#include "fclib/contact_problem.hpp"
 
 #include <cmath>
 

@@ -15,8 +15,7 @@
 #include "base/monitor.hpp"
 #include "fclib/contact_problem.hpp"
 #include "meshfile/contents.hpp"
-#include "meshfile/mfem.hpp"
-#include "meshfile/msh.hpp"
+#include "meshfile/formats.hpp"
 #include "program/lcp.hpp"
 #include "program/program_file.hpp"
 

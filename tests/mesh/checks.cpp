@@ -4,7 +4,6 @@
 #include "base/error.hpp"
 #include "mesh/decomposition.hpp"
 #include "mesh/second_order.hpp"
-#include "mesh/submesh.hpp"
 
 using namespace dotyk;
 

@@ -7,7 +7,6 @@
 #include <set>
 
 #include "../support/meshes.hpp"
-#include "mesh/submesh.hpp"
 
 using namespace dotyk;
 

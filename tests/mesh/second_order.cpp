@@ -10,7 +10,6 @@
 #include "../support/meshes.hpp"
 #include "base/error.hpp"
 #include "mesh/decomposition.hpp"
-#include "mesh/submesh.hpp"
 
 using namespace dotyk;
 using mesh::Facet;

@@ -3,7 +3,7 @@
 #include <set>
 
 #include "mesh/generators.hpp"
-#include "mesh/submesh.hpp"
+#include "mesh/decomposition.hpp"
 
 using namespace dotyk::mesh;
 

@@ -1,4 +1,4 @@
-#include "meshfile/mfem.hpp"
+#include "meshfile/formats.hpp"
 
 #include <doctest/doctest.h>
 

@@ -6,7 +6,7 @@
 
 #include "base/error.hpp"
 #include "meshfile/assemble.hpp"
-#include "meshfile/mfem.hpp"
+#include "meshfile/formats.hpp"
 
 namespace dotyk::test {
 

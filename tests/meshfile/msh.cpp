@@ -1,5 +1,5 @@
 // Gmsh's files: an element is of the group that it says; counts that are not those of the file are refused.
-#include "meshfile/msh.hpp"
+#include "meshfile/formats.hpp"
 
 #include <doctest/doctest.h>
 

@@ -9,7 +9,7 @@
 
 #include "bench.hpp"
 #include "script/guard/harmless_output.hpp"
-#include "script/guard/landlock.hpp"
+#include "script/guard/safe.hpp"
 #include "script/prompt/interrupt.hpp"
 
 using dotyk::script::Bench;

@@ -1,7 +1,7 @@
 // What people type at a prompt that is not Lua.
 #include <doctest/doctest.h>
 
-#include "script/prompt/prompt_input.hpp"
+#include "script/prompt/prompt.hpp"
 
 using namespace dotyk::script;
 

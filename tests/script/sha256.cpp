@@ -1,5 +1,5 @@
 // SHA-256 against the examples of FIPS 180-4 and of NIST's CAVP vectors, around the boundaries of blocks too.
-#include "script/guard/sha256.hpp"
+#include "script/guard/manifest.hpp"
 
 #include <doctest/doctest.h>
 

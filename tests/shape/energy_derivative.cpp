@@ -4,7 +4,7 @@
 
 #include "base/error.hpp"
 #include "differences.hpp"
-#include "shape/derivative/row_changes.hpp"
+#include "shape/derivative/boundary_motion.hpp"
 
 using namespace dotyk;
 using mesh::Family;

@@ -5,11 +5,8 @@
 
 #include "algebra/dense/decompositions.hpp"
 #include "algebra/dense/dense.hpp"
-#include "algebra/dense/lu.hpp"
 #include "algebra/dense/null_space.hpp"
-#include "algebra/symmetric_product.hpp"
 #include "base/error.hpp"
-#include "base/text.hpp"
 
 namespace dotyk::algebra {
 

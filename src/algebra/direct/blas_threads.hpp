@@ -1,5 +1,11 @@
 #pragma once
 
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "base/monitor.hpp"
+
 namespace dotyk::algebra {
 
 /// OpenBLAS takes 128 MiB for itself at its first product, and asks for them for ever where it does not get them
@@ -33,5 +39,19 @@ class OneBlasThread {
   OneBlasThread(const OneBlasThread&) = delete;
   OneBlasThread& operator=(const OneBlasThread&) = delete;
 };
+
+/// OpenBLAS has kernels for each kind of processor, and takes those of 2004 (SSE) for one that it does not know: that of Debian 12 (0.3.21) for all of Intel's
+/// since 2023. There this chooses the kernels for AVX2 or AVX-512: a factor of a cube of 24³ cells takes 1.8 s in place of 5.0. Where the user has
+/// set OPENBLAS_CORETYPE, or OpenBLAS knows the processor, it does nothing. Before the first product; not from several threads.
+void choose_blas_kernels();
+
+/// Calls factor(k) once for every k; the calls with most work begin first. `flops[k]`: the work of a call. The calls run in several threads, and BLAS
+/// uses one thread in each. They run one after another, and BLAS may use several threads, if there is only one call, if all of them together are small,
+/// or if one call has most of the work and is large enough for several threads.
+///
+/// Before each call the monitor is asked whether to stop, and is told phase(k, n): this is the n-th call, from 1. StopFactoring holds during the call.
+/// A call must not touch what another one writes.
+void factor_in_threads(const std::vector<double>& flops, const std::function<std::string(int k, int n)>& phase, Monitor& monitor,
+                       const std::function<void(int)>& factor);
 
 }  // namespace dotyk::algebra

@@ -4,7 +4,6 @@
 
 #include <cholmod.h>
 
-#include <memory>
 #include <new>
 #include <stdexcept>
 #include <string>

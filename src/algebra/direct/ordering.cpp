@@ -1,7 +1,6 @@
 #include "algebra/direct/ordering.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 #include "algebra/direct/cholmod_handle.hpp"
 

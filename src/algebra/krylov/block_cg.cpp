@@ -1,14 +1,12 @@
 #include "algebra/krylov/block_cg.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "algebra/dense/decompositions.hpp"
 #include "algebra/dense/dense.hpp"
 #include "base/error.hpp"
 #include "base/stopwatch.hpp"
-#include "base/text.hpp"
 
 namespace dotyk::algebra {
 namespace {

@@ -5,7 +5,6 @@
 #include <stdexcept>
 
 #include "base/error.hpp"
-#include "base/text.hpp"
 
 namespace dotyk::algebra {
 namespace {
@@ -51,6 +50,40 @@ void multiply_lower(const SparseMatrix& lower, const Vector& d, DenseMatrix& x) 
       v[j] *= d[j];
     }
   }
+}
+
+constexpr double kLeastPivot = 1e-8;  ///< of K's diagonal entry
+constexpr double kFirstShift = 1e-3;
+constexpr double kGreatestShift = 1e3;  ///< long before it K + σ diag(K) is diagonally dominant for a bounded row length
+
+/// Subtracts l_j l_jᵀ, as far as the pattern goes, from the columns after j.
+void update_from(SparseMatrix& l, int j) {
+  const int *start = l.outerIndexPtr(), *row = l.innerIndexPtr();
+  double* value = l.valuePtr();
+  for (int a = start[j] + 1; a < start[j + 1]; ++a) {
+    const int column = row[a];
+    int place = start[column];
+    for (int b = a; b < start[j + 1]; ++b) {
+      while (place < start[column + 1] && row[place] < row[b]) ++place;
+      if (place == start[column + 1]) break;
+      if (row[place] == row[b]) value[place] -= value[a] * value[b];
+    }
+  }
+}
+
+/// l: K on entry, its incomplete factor on return. False where a pivot is too small.
+bool factor_on_pattern(SparseMatrix& l, double shift) {
+  const int* start = l.outerIndexPtr();
+  double* value = l.valuePtr();
+  const Vector diagonal = l.diagonal();
+  for (int j = 0; j < l.cols(); ++j) value[start[j]] *= 1 + shift;
+  for (int j = 0; j < l.cols(); ++j) {
+    if (!(value[start[j]] > kLeastPivot * diagonal[j])) return false;
+    const double pivot = value[start[j]] = std::sqrt(value[start[j]]);
+    for (int k = start[j] + 1; k < start[j + 1]; ++k) value[k] /= pivot;
+    update_from(l, j);
+  }
+  return true;
 }
 
 }  // namespace
@@ -103,44 +136,6 @@ DenseMatrix Ssor::apply(const Eigen::Ref<const DenseMatrix>& v) const {
   sweep_forward(K_, d_, w);
   return root_.asDiagonal() * (t + w);
 }
-
-namespace {
-
-constexpr double kLeastPivot = 1e-8;  ///< of K's diagonal entry
-constexpr double kFirstShift = 1e-3;
-constexpr double kGreatestShift = 1e3;  ///< long before it K + σ diag(K) is diagonally dominant for a bounded row length
-
-/// Subtracts l_j l_jᵀ, as far as the pattern goes, from the columns after j.
-void update_from(SparseMatrix& l, int j) {
-  const int *start = l.outerIndexPtr(), *row = l.innerIndexPtr();
-  double* value = l.valuePtr();
-  for (int a = start[j] + 1; a < start[j + 1]; ++a) {
-    const int column = row[a];
-    int place = start[column];
-    for (int b = a; b < start[j + 1]; ++b) {
-      while (place < start[column + 1] && row[place] < row[b]) ++place;
-      if (place == start[column + 1]) break;
-      if (row[place] == row[b]) value[place] -= value[a] * value[b];
-    }
-  }
-}
-
-/// l: K on entry, its incomplete factor on return. False where a pivot is too small.
-bool factor_on_pattern(SparseMatrix& l, double shift) {
-  const int* start = l.outerIndexPtr();
-  double* value = l.valuePtr();
-  const Vector diagonal = l.diagonal();
-  for (int j = 0; j < l.cols(); ++j) value[start[j]] *= 1 + shift;
-  for (int j = 0; j < l.cols(); ++j) {
-    if (!(value[start[j]] > kLeastPivot * diagonal[j])) return false;
-    const double pivot = value[start[j]] = std::sqrt(value[start[j]]);
-    for (int k = start[j] + 1; k < start[j + 1]; ++k) value[k] /= pivot;
-    update_from(l, j);
-  }
-  return true;
-}
-
-}  // namespace
 
 IncompleteCholesky::IncompleteCholesky(const SparseMatrix& lower) : Triangular(lower), l_(lower) {
   while (!factor_on_pattern(l_, shift_)) {

@@ -2,8 +2,6 @@
 
 #include <iterator>
 
-#include "figure/canvas/axes.hpp"
-
 namespace dotyk::figure {
 
 namespace {

@@ -1,6 +1,5 @@
 #include "figure/canvas/geometry.hpp"
 
-#include <cstdint>
 #include <map>
 
 namespace dotyk::figure {

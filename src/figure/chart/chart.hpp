@@ -5,7 +5,6 @@
 
 #include "figure/canvas/axes.hpp"
 #include "figure/canvas/legend.hpp"
-#include "figure/canvas/places.hpp"
 
 namespace dotyk::figure {
 
@@ -48,5 +47,32 @@ struct ChartFrame {
 
 // From the canvas's origin, of the picture's size; returns the margins taken.
 ChartMargins draw_on(Canvas& canvas, const ChartPicture& picture, const ChartFrame& frame);
+
+// Cells of a map, beneath the series, in colours: borders of the cells around values that ascend: one more than there are values.
+std::vector<double> cell_borders(const std::vector<double>& at, bool log);
+// The same on polar axes. There the outer halves of the first and last cells are left out: a radius or an angle may end at its last value, as a colatitude does
+// at 90°. Angles all around have whole cells, which meet.
+std::vector<double> polar_borders(const std::vector<double>& at, bool angles);
+
+// Ticks at the values, where they are whole numbers one after the other, with evenly spaced labels, `most` at most; else none.
+Ticks map_ticks(const std::vector<double>& at, double most);
+
+void draw_map(Canvas& canvas, const ChartMap& map, const Axes& axes);
+std::vector<LegendEntry> map_legend(const ChartMap& map);
+
+// Of values without names: pixels that it takes on the right, with a gap before it; its drawing from `left` on, in a picture so wide.
+double map_bar_width(const ChartMap& map, double em);
+void draw_map_bar(Canvas& canvas, const ChartMap& map, const Axes& axes, double left, double width);
+
+// Polar axes, circles and rays: pixels that the names of the angles take on either side of the circle, and above and below it.
+Point polar_rim(double em);
+// Puts the pole into the middle of the room, and gives the radius its pixels and ticks.
+void place_polar(Axes& axes);
+// The circle and the names of the angles are not free.
+void occupy_polar(const Axes& axes, Occupied& occupied);
+
+// Beneath the series; and above them the angles, and the radii along the ray that is freest.
+void draw_polar_grid(Canvas& canvas, const Axes& axes);
+void draw_polar_labels(Canvas& canvas, const Axes& axes, const Occupied& occupied);
 
 }  // namespace dotyk::figure

@@ -4,8 +4,6 @@
 #include "figure/canvas/sheet.hpp"
 #include "figure/chart/chart.hpp"
 #include "figure/chart/chart_look.hpp"
-#include "figure/chart/chart_map.hpp"
-#include "figure/chart/chart_polar.hpp"
 #include "figure/door/drawing.hpp"
 
 namespace dotyk::figure {

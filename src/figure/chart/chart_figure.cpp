@@ -6,12 +6,9 @@
 #include <sstream>
 
 #include "base/error.hpp"
-#include "base/text.hpp"
 #include "figure/canvas/paper.hpp"
 #include "figure/canvas/sheet.hpp"
-#include "figure/chart/chart_categories.hpp"
-#include "figure/chart/chart_map.hpp"
-#include "figure/chart/chart_polar.hpp"
+#include "figure/chart/chart.hpp"
 #include "figure/chart/chart_series.hpp"
 #include "figure/chart/chart_texts.hpp"
 #include "figure/door/drawing.hpp"
@@ -298,21 +295,6 @@ private:
   Occupied occupied_;
 };
 
-}  // namespace
-
-void require_room(const Sheet& sheet, const ChartMargins& margins, int columns) {
-  if (margins.crowded) throw InputError("the note \"" + margins.crowded->text + "\" has no free place in its plot: give fewer words, or a greater 'size'");
-  constexpr double kLeast = 15;  // mm
-  const double mm = printed_width(sheet) / sheet.width, needed = std::ceil(printed_width(sheet) + columns * std::max(kLeast - mm * margins.plot, mm * margins.legend.pixels));
-  if (margins.legend.pixels > 0) throw InputError(text("the name \"", margins.legend.name, "\" is wider than its chart: give fewer words, or a 'width' of ", needed, " mm"));
-  if (mm * margins.plot < kLeast - 0.05)
-    throw InputError(text("beside its labels ", std::max(0.0, std::floor(mm * margins.plot)), " mm are left for ", columns > 1 ? "a" : "the", " plot of ", sheet.file, ", at least ", kLeast, " are needed: give ", columns > 1 ? "fewer 'columns' or " : "", "a 'width' of ", needed, " mm"));
-}
-
-ChartMargins draw_on(Canvas& canvas, const ChartPicture& picture, const ChartFrame& frame) { return Chart(picture, canvas, frame).margins(); }
-
-namespace {
-
 // The chart in the size that it needs, and its canvas.
 std::pair<ChartPicture, Canvas> drawn(const ChartPicture& picture) {
   const ChartFrame frame{letters(picture), {}, true, true};
@@ -331,6 +313,17 @@ std::pair<ChartPicture, Canvas> drawn(const ChartPicture& picture) {
 }
 
 }  // namespace
+
+void require_room(const Sheet& sheet, const ChartMargins& margins, int columns) {
+  if (margins.crowded) throw InputError("the note \"" + margins.crowded->text + "\" has no free place in its plot: give fewer words, or a greater 'size'");
+  constexpr double kLeast = 15;  // mm
+  const double mm = printed_width(sheet) / sheet.width, needed = std::ceil(printed_width(sheet) + columns * std::max(kLeast - mm * margins.plot, mm * margins.legend.pixels));
+  if (margins.legend.pixels > 0) throw InputError(text("the name \"", margins.legend.name, "\" is wider than its chart: give fewer words, or a 'width' of ", needed, " mm"));
+  if (mm * margins.plot < kLeast - 0.05)
+    throw InputError(text("beside its labels ", std::max(0.0, std::floor(mm * margins.plot)), " mm are left for ", columns > 1 ? "a" : "the", " plot of ", sheet.file, ", at least ", kLeast, " are needed: give ", columns > 1 ? "fewer 'columns' or " : "", "a 'width' of ", needed, " mm"));
+}
+
+ChartMargins draw_on(Canvas& canvas, const ChartPicture& picture, const ChartFrame& frame) { return Chart(picture, canvas, frame).margins(); }
 
 void render(const ChartPicture& picture) {
   const auto [grown, canvas] = drawn(picture);

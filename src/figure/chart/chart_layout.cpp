@@ -4,7 +4,6 @@
 #include <iterator>
 #include <limits>
 
-#include "figure/chart/chart_map.hpp"
 #include "figure/chart/hidden.hpp"
 
 namespace dotyk::figure {
@@ -64,10 +63,6 @@ Occupied like(const ChartPicture& picture, Point way, const Axes& axes) {
   return out;
 }
 
-}  // namespace
-
-namespace {
-
 // Of an axis whose range does not depend on the curves.
 std::optional<std::array<double, 2>> fixed_range(const ChartPicture& chart, Side side) {
   const bool x = side == Side::below;
@@ -79,6 +74,21 @@ std::optional<std::array<double, 2>> fixed_range(const ChartPicture& chart, Side
     return std::array{borders.front(), borders.back()};
   }
   return x ? chart.x_range : side == Side::left ? chart.y_range : std::nullopt;
+}
+
+// Where the way from p to q, in numbers, bends in pixels.
+void add_bends(std::vector<Point>& out, const Axes& axes, Point p, Point q) {
+  constexpr double kStep = 2;  // degrees
+  if (axes.pole) {
+    const int n = static_cast<int>(std::min(1e4, std::ceil(std::abs(q.x - p.x) / kStep)));
+    for (int k = 1; k < n; ++k) out.push_back(axes.at(p.x + (q.x - p.x) * k / n, p.y + (q.y - p.y) * k / n));
+  }
+  if (!axes.y.left_out) return;
+  const double across[] = {axes.x.pixel(p.x), axes.x.pixel(q.x)};
+  std::array edges{axes.y.left_out->from, axes.y.left_out->to};
+  if (p.y > q.y) std::swap(edges[0], edges[1]);
+  for (const double edge : edges)
+    if ((edge - p.y) * (edge - q.y) < 0) out.push_back({across[0] + (across[1] - across[0]) * ((edge - p.y) / (q.y - p.y)), axes.y.pixel(edge)});
 }
 
 }  // namespace
@@ -140,25 +150,6 @@ Axis fit_axis(const ChartPicture& chart, Side side) {
 std::vector<std::vector<Point>> runs(const std::vector<double>& x, const std::vector<double>& y, const Axes& axes) {
   return pieces(y.size(), [&](std::size_t i) { return axes.x.shows(x[i]) && axes.y.shows(y[i]) ? std::optional(Point{x[i], y[i]}) : std::nullopt; });
 }
-
-namespace {
-
-// Where the way from p to q, in numbers, bends in pixels.
-void add_bends(std::vector<Point>& out, const Axes& axes, Point p, Point q) {
-  constexpr double kStep = 2;  // degrees
-  if (axes.pole) {
-    const int n = static_cast<int>(std::min(1e4, std::ceil(std::abs(q.x - p.x) / kStep)));
-    for (int k = 1; k < n; ++k) out.push_back(axes.at(p.x + (q.x - p.x) * k / n, p.y + (q.y - p.y) * k / n));
-  }
-  if (!axes.y.left_out) return;
-  const double across[] = {axes.x.pixel(p.x), axes.x.pixel(q.x)};
-  std::array edges{axes.y.left_out->from, axes.y.left_out->to};
-  if (p.y > q.y) std::swap(edges[0], edges[1]);
-  for (const double edge : edges)
-    if ((edge - p.y) * (edge - q.y) < 0) out.push_back({across[0] + (across[1] - across[0]) * ((edge - p.y) / (q.y - p.y)), axes.y.pixel(edge)});
-}
-
-}  // namespace
 
 std::vector<std::vector<Point>> curves(const std::vector<double>& x, const std::vector<double>& y, const Axes& axes) {
   std::vector<std::vector<Point>> out;

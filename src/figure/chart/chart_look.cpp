@@ -2,7 +2,7 @@
 
 #include <numeric>
 
-#include "figure/chart/chart_map.hpp"
+#include "figure/chart/chart.hpp"
 
 namespace dotyk::figure {
 
@@ -103,6 +103,18 @@ std::string name_of(const Look& look, const ChartPicture& picture) {
   return look.data.name + (told ? "" : " →");
 }
 
+bool look_alike(const Look& a, const Look& b) {
+  const auto all = [](const Look& l) { return std::tuple(l.data.reference ? Marker::disc : l.marker, l.dashed, l.data.style, l.data.reference, l.data.front, l.data.crossed, l.data.bars, l.data.low.empty()); };
+  return a.colour == b.colour && all(a) == all(b);
+}
+
+LegendEntry entry(const std::string& name, const Look& look, double em) {
+  constexpr double kMarker = 0.8, kLine = 2;  // em
+  const SeriesPicture& s = look.data;
+  const bool marker = !has_line(s) && !s.front && (s.low.empty() || s.bars);
+  return {name, [pen = Pen{em}, look](Canvas& canvas, const Box& box) { pen.sample(canvas, look, box); }, marker ? kMarker : kLine};
+}
+
 }  // namespace
 
 // Beside statuses, and on the cells of a map, only colours that are none of theirs.
@@ -184,22 +196,6 @@ void Pen::whisker(Canvas& canvas, const std::array<Point, 2>& ends, const Look& 
   canvas.line(ends[0], ends[1], width, look.colour);
   for (const Point& end : ends) canvas.line(end - cap, end + cap, width, look.colour);
 }
-
-namespace {
-
-bool look_alike(const Look& a, const Look& b) {
-  const auto all = [](const Look& l) { return std::tuple(l.data.reference ? Marker::disc : l.marker, l.dashed, l.data.style, l.data.reference, l.data.front, l.data.crossed, l.data.bars, l.data.low.empty()); };
-  return a.colour == b.colour && all(a) == all(b);
-}
-
-LegendEntry entry(const std::string& name, const Look& look, double em) {
-  constexpr double kMarker = 0.8, kLine = 2;  // em
-  const SeriesPicture& s = look.data;
-  const bool marker = !has_line(s) && !s.front && (s.low.empty() || s.bars);
-  return {name, [pen = Pen{em}, look](Canvas& canvas, const Box& box) { pen.sample(canvas, look, box); }, marker ? kMarker : kLine};
-}
-
-}  // namespace
 
 bool legend_serves(const ChartPicture& with, const ChartPicture& other) {
   const std::vector<Look> those = named(with);

@@ -1,4 +1,4 @@
-#include "figure/chart/chart_map.hpp"
+#include "figure/chart/chart.hpp"
 
 #include <iterator>
 

@@ -1,4 +1,4 @@
-#include "figure/chart/chart_polar.hpp"
+#include "figure/chart/chart.hpp"
 
 #include <numbers>
 

@@ -209,6 +209,30 @@ double gap_limit(const Solution& s, double size) {
   return limit;
 }
 
+void refuse_missing(FieldChoice field, int dimension) {
+  if (dimension != 2) return;
+  if (field == FieldChoice::uz || field == FieldChoice::yz || field == FieldChoice::xz)
+    throw InputError(std::string("field ") + field_of(field).label + " does not exist: the scene is 2-D");
+  if (of_contacts(field)) throw InputError(std::string("field \"") + key_of(field) + "\" is one of contacts, which are for scenes in space; this one is 2-D, where status and pressure are drawn at the contact line");
+}
+
+/// How far each body moves from the middle of all.
+std::vector<Vec3> explosion(const Solution& s, double share) {
+  std::vector<Vec3> centres;
+  Vec3 middle{0, 0, 0};
+  for (const auto& body : s.scene().bodies) {
+    const mesh::Box box = body->mesh->box();
+    centres.push_back(part_way(box.low, box.high, 0.5));
+    middle = plus(middle, centres.back(), 1.0 / static_cast<double>(s.scene().bodies.size()));
+  }
+  for (Vec3& centre : centres) centre = plus({0, 0, 0}, plus(centre, middle, -1), share);
+  return centres;
+}
+
+void move(std::vector<double>& points, const Vec3& by) {
+  for (std::size_t i = 0; i < points.size(); ++i) points[i] += by[i % 3];
+}
+
 }  // namespace
 
 CellShape cell_shape(const mesh::Mesh& mesh) {
@@ -235,34 +259,6 @@ double visible_deformation(const Solution& s) {
   const double wanted = below * std::min(0.1 * size / largest, gap_limit(s, size));
   return wanted <= 1 ? 1 : round_number_below(wanted);
 }
-
-namespace {
-
-void refuse_missing(FieldChoice field, int dimension) {
-  if (dimension != 2) return;
-  if (field == FieldChoice::uz || field == FieldChoice::yz || field == FieldChoice::xz)
-    throw InputError(std::string("field ") + field_of(field).label + " does not exist: the scene is 2-D");
-  if (of_contacts(field)) throw InputError(std::string("field \"") + key_of(field) + "\" is one of contacts, which are for scenes in space; this one is 2-D, where status and pressure are drawn at the contact line");
-}
-
-/// How far each body moves from the middle of all.
-std::vector<Vec3> explosion(const Solution& s, double share) {
-  std::vector<Vec3> centres;
-  Vec3 middle{0, 0, 0};
-  for (const auto& body : s.scene().bodies) {
-    const mesh::Box box = body->mesh->box();
-    centres.push_back(part_way(box.low, box.high, 0.5));
-    middle = plus(middle, centres.back(), 1.0 / static_cast<double>(s.scene().bodies.size()));
-  }
-  for (Vec3& centre : centres) centre = plus({0, 0, 0}, plus(centre, middle, -1), share);
-  return centres;
-}
-
-void move(std::vector<double>& points, const Vec3& by) {
-  for (std::size_t i = 0; i < points.size(); ++i) points[i] += by[i % 3];
-}
-
-}  // namespace
 
 ScenePicture compose(const Solution& s, const SceneOptions& options) {
   const int dim = s.scene().dimension();

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "figure/door/picture.hpp"
+#include "multigrid/slices.hpp"
 #include "scene/result/solution.hpp"
 
 namespace dotyk::figure {
@@ -100,5 +101,12 @@ void add_contacts(const scene::Solution& solution, const SceneOptions& options, 
 // In the plane a half-space, which ends nowhere, is drawn a little beyond the contact.
 RigidPicture obstacle_picture(const scene::Contact& contact, const scene::ContactResult& result, const Vec3& move, double factor,
                               double size);
+
+/// Writes a.pvtu and the files a_0.vtu, a_1.vtu, … of the ranks, with the arrays of compose_grid(). Throws as write() for a GridFile, and InputError where
+/// a rank cannot write.
+void write_pieces(const scene::Solution& solution, const std::string& file);
+
+/// What a rank makes of its cells for that.
+Lists write_cells(const multigrid::VisitedCells& at, const Lists& said);
 
 }  // namespace dotyk::figure

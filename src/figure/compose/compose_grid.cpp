@@ -65,20 +65,6 @@ void drop_stray_points(GridFile& file) {
     for (int& node : body.cells) node = number[node];
 }
 
-}  // namespace
-
-void NodeArrays::add(const Vec3& u, const elasticity::Stress& at_node) {
-  displacement_.values.insert(displacement_.values.end(), u.begin(), u.end());
-  for (const int v : {0, 1, 2, 5, 3, 4}) stress_.values.push_back(at_node[v]);  // ours is xx yy zz yz xz xy
-  von_mises_.values.push_back(elasticity::von_mises(at_node));
-}
-
-std::vector<GridArray> contact_arrays(std::size_t nodes) {
-  return {{"contact_pressure", {""}, std::vector<double>(nodes, 0.0)}, {"contact_gap", {""}, std::vector<double>(nodes, NAN)}, {"contact_status", {""}, std::vector<double>(nodes, -1.0)}};
-}
-
-namespace {
-
 /// Conditions of order 2 stand at corners, and what they say is linear (bilinear) between: its values at the facets' other nodes.
 std::vector<scene::ContactNode> with_nodes_between(const Contact& contact, std::vector<scene::ContactNode> nodes) {
   const mesh::Mesh& mesh = *contact.first.body->mesh;
@@ -117,6 +103,16 @@ std::unordered_map<int, int> across(const Contact& contact) {
 }
 
 }  // namespace
+
+void NodeArrays::add(const Vec3& u, const elasticity::Stress& at_node) {
+  displacement_.values.insert(displacement_.values.end(), u.begin(), u.end());
+  for (const int v : {0, 1, 2, 5, 3, 4}) stress_.values.push_back(at_node[v]);  // ours is xx yy zz yz xz xy
+  von_mises_.values.push_back(elasticity::von_mises(at_node));
+}
+
+std::vector<GridArray> contact_arrays(std::size_t nodes) {
+  return {{"contact_pressure", {""}, std::vector<double>(nodes, 0.0)}, {"contact_gap", {""}, std::vector<double>(nodes, NAN)}, {"contact_status", {""}, std::vector<double>(nodes, -1.0)}};
+}
 
 std::vector<GridArray> contact_arrays(const Solution& s) {
   const std::vector<std::size_t> first = first_nodes(s.scene());

@@ -1,5 +1,4 @@
-#include "figure/compose/compose_pieces.hpp"
-
+// The .pvtu of bodies that ranks refine: each rank writes its cells.
 #include <cmath>
 #include <exception>
 #include <filesystem>
@@ -7,7 +6,6 @@
 #include <utility>
 
 #include "base/error.hpp"
-#include "base/text.hpp"
 #include "base/whole_file.hpp"
 #include "elasticity/share.hpp"
 #include "elasticity/stress.hpp"

@@ -45,25 +45,6 @@ void check_file(const std::string& file, std::initializer_list<const char*> endi
   place_to_write(file);
 }
 
-}  // namespace
-
-void check_text(const std::string& key, const std::string& words) {
-  constexpr std::size_t most = 1000;
-  if (words.size() > most) throw InputError(text(key, " has ", words.size(), " bytes; a text in a figure has at most ", most));
-  if (!is_utf8(words)) throw InputError(key + " is not valid UTF-8");
-}
-
-void check_sheet(const Sheet& sheet) {
-  check_file(sheet.file, {".png", ".pdf", ".svg"}, ".png, .pdf or .svg");
-  if (sheet.printed) require(*sheet.printed >= least_printed && *sheet.printed <= greatest_printed, "the width of ", sheet.file, " is ", *sheet.printed, " mm, expected ", least_printed, " to ", greatest_printed);
-  const auto possible = [](int side) { return side >= least_side && side <= greatest_side; };
-  require(possible(sheet.width) && possible(sheet.height), "the size of ", sheet.file, " is ", sheet.width, " x ", sheet.height, ", expected ", least_side, " to ",
-          greatest_side, " pixels each way");
-  check_text("'title'", sheet.title);
-}
-
-namespace {
-
 void check_nodes(const std::vector<int>& nodes, int each, std::size_t n, const std::string& what) {
   require(nodes.size() % each == 0, what, ": ", nodes.size(), " entries are not a multiple of ", each);
   const auto wrong = std::find_if(nodes.begin(), nodes.end(), [n](int i) { return i < 0 || static_cast<std::size_t>(i) >= n; });
@@ -142,6 +123,21 @@ void check_space(const ScenePicture& p) {
 }
 
 }  // namespace
+
+void check_text(const std::string& key, const std::string& words) {
+  constexpr std::size_t most = 1000;
+  if (words.size() > most) throw InputError(text(key, " has ", words.size(), " bytes; a text in a figure has at most ", most));
+  if (!is_utf8(words)) throw InputError(key + " is not valid UTF-8");
+}
+
+void check_sheet(const Sheet& sheet) {
+  check_file(sheet.file, {".png", ".pdf", ".svg"}, ".png, .pdf or .svg");
+  if (sheet.printed) require(*sheet.printed >= least_printed && *sheet.printed <= greatest_printed, "the width of ", sheet.file, " is ", *sheet.printed, " mm, expected ", least_printed, " to ", greatest_printed);
+  const auto possible = [](int side) { return side >= least_side && side <= greatest_side; };
+  require(possible(sheet.width) && possible(sheet.height), "the size of ", sheet.file, " is ", sheet.width, " x ", sheet.height, ", expected ", least_side, " to ",
+          greatest_side, " pixels each way");
+  check_text("'title'", sheet.title);
+}
 
 static void check_scene(const ScenePicture& p) {
   check_text("'title'", p.title);

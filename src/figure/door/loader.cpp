@@ -3,7 +3,6 @@
 #include <dlfcn.h>
 
 #include <stdexcept>
-#include <string>
 
 #include "base/open_library.hpp"
 #include "base/whole_file.hpp"

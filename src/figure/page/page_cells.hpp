@@ -1,10 +1,8 @@
 // How the cells of a page draw themselves into a room.
 #pragma once
 
-#include <vector>
-
 #include "figure/canvas/axes.hpp"
-#include "figure/canvas/places.hpp"
+#include "figure/canvas/legend.hpp"
 #include "figure/page/page_picture.hpp"
 
 namespace dotyk::figure {

@@ -1,6 +1,5 @@
 // A plate as a scene: a body in the plane or in space, with what plates add.
 #include <map>
-#include <numbers>
 #include <ranges>
 
 #include "figure/door/drawing.hpp"
@@ -146,6 +145,12 @@ ScenePicture scene_of(const Plate& plate) {
   return scene;
 }
 
+void add_layers(Stage& stage, const Plate& plate) {
+  const std::vector<Layer> layers = stage.plane ? plan_layers(plate) : surface_layers(plate);
+  stage.layers.insert(stage.layers.end() - 1, layers.begin(), layers.end());  // in the legend before what is said of bodies
+  stage.axes_of_bodies = stage.plane;
+}
+
 }  // namespace
 
 void plate_legend(const Plate& plate, double em, double width, std::vector<LegendEntry>& out) {
@@ -184,16 +189,6 @@ void draw_apex(Stage& stage, Point at, Point size, double rim, Colour colour) {
     stage.over.convex(std::array{Point{at.x, at.y + grow}, Point{at.x - size.x - grow, low}, Point{at.x + size.x + grow, low}}, paint);
   }
 }
-
-namespace {
-
-void add_layers(Stage& stage, const Plate& plate) {
-  const std::vector<Layer> layers = stage.plane ? plan_layers(plate) : surface_layers(plate);
-  stage.layers.insert(stage.layers.end() - 1, layers.begin(), layers.end());  // in the legend before what is said of bodies
-  stage.axes_of_bodies = stage.plane;
-}
-
-}  // namespace
 
 void render(const PlatePicture& picture) {
   const Plate plate(picture);

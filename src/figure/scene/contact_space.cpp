@@ -116,15 +116,6 @@ void add_arrows(const Stage& stage, const ContactPicture& contact, vtkRenderer* 
   arrows.show(renderer, pressure_line);
 }
 
-}  // namespace
-
-void add_contact_surface(const Stage& stage, const ContactPicture& contact, vtkRenderer* renderer) {
-  if (contact.nodes_per_facet > 2) contact.values.empty() ? add_statuses(stage, contact, renderer) : add_field(stage, contact, renderer);
-  if (stage.pressures() && contact.values.empty()) add_arrows(stage, contact, renderer);
-}
-
-namespace {
-
 constexpr double inset_height = 12, least_inset = 20;  // em; mm of width
 
 // The contact that carries most, of those that have a map; of equals (but for rounding) the first.
@@ -141,6 +132,11 @@ const ContactPicture* inset_contact(const ScenePicture& picture) {
 }
 
 }  // namespace
+
+void add_contact_surface(const Stage& stage, const ContactPicture& contact, vtkRenderer* renderer) {
+  if (contact.nodes_per_facet > 2) contact.values.empty() ? add_statuses(stage, contact, renderer) : add_field(stage, contact, renderer);
+  if (stage.pressures() && contact.values.empty()) add_arrows(stage, contact, renderer);
+}
 
 std::optional<ScenePicture> inset_of(const ScenePicture& picture, const ColourScale& scale) {
   const ContactPicture* contact = picture.inset && picture.bodies.front().dimension == 3 ? inset_contact(picture) : nullptr;

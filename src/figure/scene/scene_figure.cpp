@@ -134,26 +134,6 @@ void draw_layers(Stage& stage, vtkRenderer* bodies) {
   stage.over.no_clip();
 }
 
-}  // namespace
-
-std::vector<Painted> painted(Stage& stage) {
-  vtkNew<vtkRenderer> bodies;
-  draw_layers(stage, bodies);
-  if (stage.picture.cut) cut_bodies(stage, bodies);
-  // The rim of a window, above what it cuts off.
-  if (stage.window) stage.over.outline(stage.frame, std::max(1.0, stage.em / 20), {30, 30, 30});
-  Painted whole{std::move(stage.under), {}, Box{0, 0, 1.0 * stage.picture.width, 1.0 * stage.picture.height}.moved(stage.corner), std::move(stage.over)};
-  if (bodies->GetActors()->GetNumberOfItems() > 0) {
-    set_camera(stage, bodies);
-    whole.image = rendered(stage.picture, bodies);
-  }
-  std::vector<Painted> parts{std::move(whole)};
-  std::move(stage.insets.begin(), stage.insets.end(), std::back_inserter(parts));
-  return parts;
-}
-
-namespace {
-
 // A sheet without a given width becomes one of two columns where one will not do.
 bool widened(Sheet& sheet) {
   const double before = printed_width(sheet);
@@ -179,6 +159,22 @@ void with_stage(const ScenePicture& picture, const std::function<void(Stage&)>& 
 }
 
 }  // namespace
+
+std::vector<Painted> painted(Stage& stage) {
+  vtkNew<vtkRenderer> bodies;
+  draw_layers(stage, bodies);
+  if (stage.picture.cut) cut_bodies(stage, bodies);
+  // The rim of a window, above what it cuts off.
+  if (stage.window) stage.over.outline(stage.frame, std::max(1.0, stage.em / 20), {30, 30, 30});
+  Painted whole{std::move(stage.under), {}, Box{0, 0, 1.0 * stage.picture.width, 1.0 * stage.picture.height}.moved(stage.corner), std::move(stage.over)};
+  if (bodies->GetActors()->GetNumberOfItems() > 0) {
+    set_camera(stage, bodies);
+    whole.image = rendered(stage.picture, bodies);
+  }
+  std::vector<Painted> parts{std::move(whole)};
+  std::move(stage.insets.begin(), stage.insets.end(), std::back_inserter(parts));
+  return parts;
+}
 
 void draw_scene(const ScenePicture& picture, const std::function<void(Stage&)>& prepare) {
   with_stage(picture, prepare, [](Stage& stage) { write_picture(stage.picture, painted(stage)); });

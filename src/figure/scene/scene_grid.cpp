@@ -6,7 +6,6 @@
 #include <set>
 
 #include "base/error.hpp"
-#include "base/text.hpp"
 #include "figure/canvas/sheet.hpp"
 #include "figure/door/drawing.hpp"
 #include "figure/scene/stage.hpp"

@@ -1,7 +1,6 @@
 // Where everything of a scene figure goes: the scene is fitted, with equal
 // axes, into what title, legend, axes and colour bar leave.
 #include "base/error.hpp"
-#include "base/text.hpp"
 #include "figure/canvas/sheet.hpp"
 #include "figure/scene/scene_axes.hpp"
 

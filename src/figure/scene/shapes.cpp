@@ -70,6 +70,18 @@ vtkSmartPointer<vtkActor> lit_actor(const Stage& stage, vtkRenderer* renderer, v
   return actor;
 }
 
+// A shaft of four corners, a head of four of which two coincide. `half`: of the head's width.
+void add_arrow(Shapes& quads, const Vec3& tail, const Vec3& head, double width, double tip, double half, double lift) {
+  const double size = std::hypot(head[0] - tail[0], head[1] - tail[1]);
+  if (!(size > 0.5)) return;
+  tip = std::min(tip, 0.7 * size);
+  const Vec3 side{-(head[1] - tail[1]) / size, (head[0] - tail[0]) / size, 0};
+  const Vec3 neck = part_way(head, tail, tip / size);
+  for (const Vec3& p : {plus(tail, side, width / 2), plus(tail, side, -width / 2), plus(neck, side, -width / 2), plus(neck, side, width / 2),
+                        plus(neck, side, half), plus(neck, side, -half), head, head})
+    quads.add_pixel(p, lift);
+}
+
 }  // namespace
 
 void add_coloured(const Stage& stage, vtkRenderer* renderer, vtkPolyData* data, const std::vector<double>& values, bool on_polygons) {
@@ -106,22 +118,6 @@ void Shapes::show(vtkRenderer* renderer, Colour colour, double width, double opa
   std::iota(nodes.begin(), nodes.end(), 0);
   add_plain(stage_, renderer, poly_data(points_, {nodes, each_}), colour, width, opacity);
 }
-
-namespace {
-
-// A shaft of four corners, a head of four of which two coincide. `half`: of the head's width.
-void add_arrow(Shapes& quads, const Vec3& tail, const Vec3& head, double width, double tip, double half, double lift) {
-  const double size = std::hypot(head[0] - tail[0], head[1] - tail[1]);
-  if (!(size > 0.5)) return;
-  tip = std::min(tip, 0.7 * size);
-  const Vec3 side{-(head[1] - tail[1]) / size, (head[0] - tail[0]) / size, 0};
-  const Vec3 neck = part_way(head, tail, tip / size);
-  for (const Vec3& p : {plus(tail, side, width / 2), plus(tail, side, -width / 2), plus(neck, side, -width / 2), plus(neck, side, width / 2),
-                        plus(neck, side, half), plus(neck, side, -half), head, head})
-    quads.add_pixel(p, lift);
-}
-
-}  // namespace
 
 void Arrows::add(const Vec3& tail, const Vec3& head) {
   const Vec3 back = unit(plus(tail, head, -1));

@@ -8,7 +8,6 @@
 #include "base/monitor.hpp"
 #include "multigrid/cycle/hierarchy.hpp"
 #include "multigrid/cycle/sweeps.hpp"
-#include "multigrid/rows/shared_rows.hpp"
 
 namespace dotyk::multigrid {
 

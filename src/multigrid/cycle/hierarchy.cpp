@@ -1,8 +1,6 @@
 #include "multigrid/cycle/hierarchy.hpp"
 
-#include <algorithm>
 #include <stdexcept>
-#include <utility>
 
 namespace dotyk::multigrid {
 

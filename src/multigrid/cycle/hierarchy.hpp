@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "multigrid/cycle/galerkin.hpp"
-#include "multigrid/rows/all_rows.hpp"
+#include "multigrid/rows/own_rows.hpp"
 #include "multigrid/shares/piece.hpp"
 
 namespace dotyk::multigrid {

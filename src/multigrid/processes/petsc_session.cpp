@@ -10,7 +10,6 @@
 #include <set>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
 #include "multigrid/multigrid.hpp"
 #include "multigrid/start_ranks.hpp"

@@ -174,24 +174,6 @@ DOTYK_CLONES void some_backward_of_three(const HalfBlocks<float>& rows, std::spa
   Kernel<3, float>{rows}.backward(nodes, inverse, b, beyond, x);
 }
 
-}  // namespace
-
-PaddedVector::PaddedVector(int size, int nodes) : size_(size), width_(padded(size)), numbers_(static_cast<std::size_t>(nodes) * width_, 0.0) {
-  if (size > kMostRows) throw std::runtime_error("multigrid: a node has more than six unknowns");
-}
-
-void PaddedVector::take(const double* from) {
-  for (std::size_t i = 0; i < numbers_.size(); i += width_, from += size_)
-    for (int r = 0; r < size_; ++r) numbers_[i + r] = from[r];
-}
-
-void PaddedVector::give(double* to) const {
-  for (std::size_t i = 0; i < numbers_.size(); i += width_, to += size_)
-    for (int r = 0; r < size_; ++r) to[r] = numbers_[i + r];
-}
-
-namespace {
-
 /// False where the block is not positive definite.
 template <int rows>
 [[gnu::always_inline]] inline bool inverted(const double* block, double* inverse) {
@@ -219,6 +201,20 @@ template <int rows>
 }
 
 }  // namespace
+
+PaddedVector::PaddedVector(int size, int nodes) : size_(size), width_(padded(size)), numbers_(static_cast<std::size_t>(nodes) * width_, 0.0) {
+  if (size > kMostRows) throw std::runtime_error("multigrid: a node has more than six unknowns");
+}
+
+void PaddedVector::take(const double* from) {
+  for (std::size_t i = 0; i < numbers_.size(); i += width_, from += size_)
+    for (int r = 0; r < size_; ++r) numbers_[i + r] = from[r];
+}
+
+void PaddedVector::give(double* to) const {
+  for (std::size_t i = 0; i < numbers_.size(); i += width_, to += size_)
+    for (int r = 0; r < size_; ++r) to[r] = numbers_[i + r];
+}
 
 void invert(int rows, const double* block, double* inverse) {
   bool done = false;

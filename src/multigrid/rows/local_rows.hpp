@@ -3,7 +3,6 @@
 
 #include <array>
 #include <optional>
-#include <vector>
 
 #include "multigrid/processes/petsc_session.hpp"
 #include "multigrid/processes/ranks.hpp"

@@ -4,6 +4,7 @@
 
 #include "algebra/types.hpp"
 #include "multigrid/rows/half_matrix.hpp"
+#include "multigrid/rows/own_functions.hpp"
 
 namespace dotyk::multigrid {
 
@@ -20,5 +21,17 @@ void add(HalfRows& rows, const Entries& entries);
 
 /// Sets the diagonal of those idle rows, counted as in Numbering, that are own.
 void fill_idle(HalfRows& rows, const std::vector<int>& idle, double number);
+
+/// Joins the rows of all ranks, as if one rank had them all. Collective.
+HalfRows all_rows(const Ranks& ranks, const HalfRows& own);
+/// Joins the ranks' functions of a coarser mesh, as if one rank had them all. Collective.
+OwnFunctions all_rows(const Ranks& ranks, const OwnFunctions& own);
+
+/// The numbers of the rows that all_rows() makes: their HalfRows::below, without its spare numbers, and their HalfRows::diagonal.
+struct AllNumbers {
+  std::vector<double> below, diagonal;
+};
+/// Only the numbers of all_rows(), for a matrix that has its pattern already. Collective.
+AllNumbers all_numbers(const Ranks& ranks, const HalfRows& own);
 
 }  // namespace dotyk::multigrid

@@ -1,9 +1,7 @@
 #include "multigrid/rows/slice.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <functional>
-#include <utility>
 
 #include "multigrid/rows/own_rows.hpp"
 

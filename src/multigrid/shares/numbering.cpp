@@ -3,7 +3,6 @@
 #include <metis.h>
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <stdexcept>
 #include <utility>

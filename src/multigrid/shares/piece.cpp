@@ -5,10 +5,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "algebra/entries_of.hpp"
+#include "algebra/symmetric_matrix.hpp"
 #include "multigrid/rows/own_rows.hpp"
-#include "multigrid/shares/changes.hpp"
-#include "multigrid/shares/functions.hpp"
+#include "multigrid/shares/messages.hpp"
 
 namespace dotyk::multigrid {
 

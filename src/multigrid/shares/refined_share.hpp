@@ -5,7 +5,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "algebra/refinable.hpp"
+#include "algebra/coarse_functions.hpp"
 #include "multigrid/rows/half_matrix.hpp"
 #include "multigrid/rows/own_functions.hpp"
 

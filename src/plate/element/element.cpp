@@ -3,7 +3,7 @@
 #include <cmath>
 #include <unordered_map>
 
-#include "mesh/edge_key.hpp"
+#include "mesh/facet_table.hpp"
 
 namespace dotyk::plate {
 
@@ -14,6 +14,29 @@ namespace {
 const double kCorner = std::cos(35 * M_PI / 180);
 
 double cross(const Vector2d& a, const Vector2d& b) { return a[0] * b[1] - a[1] * b[0]; }
+
+Rule middles() { return {{{0.5, 0.5, 0}, {0, 0.5, 0.5}, {0.5, 0, 0.5}}, {1. / 3, 1. / 3, 1. / 3}}; }
+
+/// Radon's rule with seven points, exact for degree 5.
+Rule radon() {
+  const double s = std::sqrt(15.0), a = (6 - s) / 21, b = (6 + s) / 21, wa = (155 - s) / 1200, wb = (155 + s) / 1200;
+  return {{{1. / 3, 1. / 3, 1. / 3}, {1 - 2 * a, a, a}, {a, 1 - 2 * a, a}, {a, a, 1 - 2 * a}, {1 - 2 * b, b, b}, {b, 1 - 2 * b, b}, {b, b, 1 - 2 * b}},
+          {9. / 40, wa, wa, wa, wb, wb, wb}};
+}
+
+/// A rule on each third of a cell, (k, k + 1, centre).
+Rule on_thirds(const Rule& rule) {
+  Rule out;
+  for (int k = 0; k < 3; ++k)
+    for (std::size_t i = 0; i < rule.points.size(); ++i) {
+      Barycentric p = Barycentric::Constant(rule.points[i][2] / 3);
+      p[k] += rule.points[i][0];
+      p[(k + 1) % 3] += rule.points[i][1];
+      out.points.push_back(p);
+      out.weights.push_back(rule.weights[i] / 3);
+    }
+  return out;
+}
 
 }  // namespace
 
@@ -78,33 +101,6 @@ Triangle triangle(const mesh::Mesh& mesh, const Edges& edges, int cell) {
   for (int k = 0; k < 3; ++k) t.barycentric_gradient.col((k + 2) % 3) = -t.normal[k] * t.length[k] / (2 * t.area);
   return t;
 }
-
-namespace {
-
-Rule middles() { return {{{0.5, 0.5, 0}, {0, 0.5, 0.5}, {0.5, 0, 0.5}}, {1. / 3, 1. / 3, 1. / 3}}; }
-
-/// Radon's rule with seven points, exact for degree 5.
-Rule radon() {
-  const double s = std::sqrt(15.0), a = (6 - s) / 21, b = (6 + s) / 21, wa = (155 - s) / 1200, wb = (155 + s) / 1200;
-  return {{{1. / 3, 1. / 3, 1. / 3}, {1 - 2 * a, a, a}, {a, 1 - 2 * a, a}, {a, a, 1 - 2 * a}, {1 - 2 * b, b, b}, {b, 1 - 2 * b, b}, {b, b, 1 - 2 * b}},
-          {9. / 40, wa, wa, wa, wb, wb, wb}};
-}
-
-/// A rule on each third of a cell, (k, k + 1, centre).
-Rule on_thirds(const Rule& rule) {
-  Rule out;
-  for (int k = 0; k < 3; ++k)
-    for (std::size_t i = 0; i < rule.points.size(); ++i) {
-      Barycentric p = Barycentric::Constant(rule.points[i][2] / 3);
-      p[k] += rule.points[i][0];
-      p[(k + 1) % 3] += rule.points[i][1];
-      out.points.push_back(p);
-      out.weights.push_back(rule.weights[i] / 3);
-    }
-  return out;
-}
-
-}  // namespace
 
 const Rule& stiffness_rule(Element element) {
   static const Rule morley = middles();

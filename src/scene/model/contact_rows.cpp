@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "base/error.hpp"
-#include "base/text.hpp"
 #include "contact/multipliers.hpp"
 #include "contact/tangents.hpp"
 

@@ -1,6 +1,5 @@
 #include "scene/model/slices.hpp"
 
-#include <algorithm>
 #include <functional>
 #include <limits>
 #include <numeric>
@@ -9,9 +8,6 @@
 
 #include "base/error.hpp"
 #include "base/listed.hpp"
-#include "base/text.hpp"
-#include "elasticity/share.hpp"
-#include "multigrid/slices.hpp"
 #include "problem/coarser.hpp"
 
 namespace dotyk::scene {

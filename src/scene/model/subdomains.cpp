@@ -9,7 +9,6 @@
 #include "base/text.hpp"
 #include "elasticity/rigid_modes.hpp"
 #include "mesh/decomposition.hpp"
-#include "mesh/submesh.hpp"
 
 namespace dotyk::scene {
 namespace {

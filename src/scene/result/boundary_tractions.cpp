@@ -1,7 +1,6 @@
 #include "scene/result/boundary_tractions.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace dotyk::scene {
 

@@ -3,7 +3,6 @@
 #include <iomanip>
 
 #include "base/error.hpp"
-#include "base/text.hpp"
 #include "base/whole_file.hpp"
 #include "scene/result/solution.hpp"
 

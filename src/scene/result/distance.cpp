@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/error.hpp"
-#include "base/text.hpp"
 #include "elasticity/interpolation.hpp"
 #include "elasticity/load.hpp"
 #include "scene/result/energy_norm.hpp"

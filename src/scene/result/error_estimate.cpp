@@ -6,7 +6,6 @@
 
 #include "base/error.hpp"
 #include "base/moderate.hpp"
-#include "base/text.hpp"
 #include "scene/result/boundary_tractions.hpp"
 #include "scene/result/energy_norm.hpp"
 #include "scene/result/inner_cells.hpp"

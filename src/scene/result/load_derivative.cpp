@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "base/error.hpp"
-#include "base/text.hpp"
 #include "elasticity/shape_derivative.hpp"
 
 namespace dotyk::scene {

@@ -1,6 +1,5 @@
 #include "algebra/dense/decompositions.hpp"
 #include "base/error.hpp"
-#include "base/text.hpp"
 #include "scene/result/solution.hpp"
 
 namespace dotyk::scene {

@@ -7,7 +7,6 @@
 
 #include "base/error.hpp"
 #include "base/stopwatch.hpp"
-#include "base/text.hpp"
 #include "problem/free_motions.hpp"
 #include "scene/result/inner_cells.hpp"
 #include "scene/solve/doubts.hpp"

@@ -5,7 +5,6 @@
 #include <numeric>
 
 #include "base/error.hpp"
-#include "base/text.hpp"
 
 namespace dotyk::scene {
 

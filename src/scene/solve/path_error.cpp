@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "base/error.hpp"
-#include "base/text.hpp"
 #include "scene/model/moved.hpp"
 #include "scene/result/solution.hpp"
 
@@ -26,21 +25,6 @@ bool in_proportion(const problem::Problem& problem) {
   return std::all_of(points.begin(), points.end(), [](const problem::FrictionPoint& p) { return p.group.law->bound(p.k, 0) == 0; }) &&
          std::all_of(rows.begin(), rows.end(), [](const problem::ScalarRow& row) { return row.law.unilateral() || row.law.linear_stiffness(row.k); });
 }
-
-}  // namespace
-
-bool follows_path(const Solution& solution) {
-  const problem::Problem& problem = solution.model().problem;
-  const auto points = problem.friction_points();
-  const bool rubs = std::any_of(points.begin(), points.end(), [&](const problem::FrictionPoint& p) {
-    return !solution.result().state.lambda.segment(p.first, p.group.components).isZero(0);
-  });
-  for (std::size_t c = 0; rubs && c < solution.model().contacts.size(); ++c)
-    if (closed_on_the_way(solution, c)) return true;
-  return false;
-}
-
-namespace {
 
 /// The scene with what its bodies bore when it was solved.
 std::shared_ptr<Scene> as_solved(const Solution& solution) {
@@ -85,6 +69,17 @@ double estimate_path_error(const Solution& solution, Monitor& monitor) {
 }
 
 }  // namespace
+
+bool follows_path(const Solution& solution) {
+  const problem::Problem& problem = solution.model().problem;
+  const auto points = problem.friction_points();
+  const bool rubs = std::any_of(points.begin(), points.end(), [&](const problem::FrictionPoint& p) {
+    return !solution.result().state.lambda.segment(p.first, p.group.components).isZero(0);
+  });
+  for (std::size_t c = 0; rubs && c < solution.model().contacts.size(); ++c)
+    if (closed_on_the_way(solution, c)) return true;
+  return false;
+}
 
 double Solution::path_error(Monitor& monitor) const {
   if (!path_error_) path_error_ = estimate_path_error(*this, monitor);

@@ -5,7 +5,6 @@
 #include "base/error.hpp"
 #include "base/listed.hpp"
 #include "base/memory.hpp"
-#include "base/text.hpp"
 #include "elasticity/rigid_modes.hpp"
 #include "problem/uniqueness.hpp"
 #include "scene/solve/doubts.hpp"

@@ -5,7 +5,6 @@
 #include "base/error.hpp"
 #include "base/memory.hpp"
 #include "base/stopwatch.hpp"
-#include "base/text.hpp"
 #include "scene/result/solution.hpp"
 #include "solver/active/pdas.hpp"
 #include "solver/core/default_method.hpp"

@@ -1,12 +1,10 @@
 #include "scene/statement/body.hpp"
 
-#include <array>
 #include <cmath>
 #include <set>
 
 #include "base/error.hpp"
 #include "base/listed.hpp"
-#include "base/text.hpp"
 #include "elasticity/refined.hpp"
 #include "mesh/decomposition.hpp"
 #include "multigrid/start_ranks.hpp"

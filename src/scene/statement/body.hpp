@@ -12,7 +12,6 @@
 #include "contact/matching.hpp"
 #include "contact/sides.hpp"
 #include "elasticity/assembly.hpp"
-#include "elasticity/linear_force.hpp"
 #include "elasticity/load.hpp"
 #include "elasticity/material.hpp"
 #include "mesh/mesh.hpp"

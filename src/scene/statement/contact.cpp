@@ -4,7 +4,6 @@
 
 #include "base/error.hpp"
 #include "base/stopwatch.hpp"
-#include "base/text.hpp"
 #include "scene/statement/scene.hpp"
 
 namespace dotyk::scene {
@@ -23,36 +22,6 @@ int find_root(const std::vector<T>& list, const void* wanted) {
     if (root(&*list[k]) == wanted) return static_cast<int>(k);
   return -1;
 }
-
-}  // namespace
-
-int Scene::index_of(const Body* body) const { return find_root(bodies, root(body)); }
-int Scene::index_of(const Contact& contact) const { return find_root(contacts, root(&contact)); }
-
-void require_whole(const Scene& scene, const std::string& what) {
-  for (const auto& body : scene.bodies) require_whole(*body, what);
-}
-
-std::shared_ptr<Scene> make_scene(std::vector<std::shared_ptr<Body>> bodies) {
-  if (bodies.empty()) throw InputError("a scene needs at least one body");
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (bodies[i]->dimension() != bodies[0]->dimension())
-      throw InputError(text("'", bodies[i]->name, "' is ", bodies[i]->dimension(), "-D, '",
-                            bodies[0]->name, "' is ", bodies[0]->dimension(),
-                            "-D; the bodies of a scene must have one dimension"));
-    for (std::size_t j = 0; j < i; ++j) {
-      if (bodies[i] == bodies[j]) throw InputError(text("'", bodies[i]->name, "' is given twice"));
-      if (bodies[i]->name == bodies[j]->name)
-        throw InputError(text("two bodies are named '", bodies[i]->name,
-                              "'; give each a name of its own (body{ name = … })"));
-    }
-  }
-  auto scene = std::make_shared<Scene>();
-  scene->bodies = std::move(bodies);
-  return scene;
-}
-
-namespace {
 
 void require_member(const Scene& scene, const Part& part) {
   const int index = scene.index_of(part.body.get());
@@ -179,6 +148,32 @@ std::shared_ptr<const Contact> keep(Scene& scene, Contact contact) {
 }
 
 }  // namespace
+
+int Scene::index_of(const Body* body) const { return find_root(bodies, root(body)); }
+int Scene::index_of(const Contact& contact) const { return find_root(contacts, root(&contact)); }
+
+void require_whole(const Scene& scene, const std::string& what) {
+  for (const auto& body : scene.bodies) require_whole(*body, what);
+}
+
+std::shared_ptr<Scene> make_scene(std::vector<std::shared_ptr<Body>> bodies) {
+  if (bodies.empty()) throw InputError("a scene needs at least one body");
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (bodies[i]->dimension() != bodies[0]->dimension())
+      throw InputError(text("'", bodies[i]->name, "' is ", bodies[i]->dimension(), "-D, '",
+                            bodies[0]->name, "' is ", bodies[0]->dimension(),
+                            "-D; the bodies of a scene must have one dimension"));
+    for (std::size_t j = 0; j < i; ++j) {
+      if (bodies[i] == bodies[j]) throw InputError(text("'", bodies[i]->name, "' is given twice"));
+      if (bodies[i]->name == bodies[j]->name)
+        throw InputError(text("two bodies are named '", bodies[i]->name,
+                              "'; give each a name of its own (body{ name = … })"));
+    }
+  }
+  auto scene = std::make_shared<Scene>();
+  scene->bodies = std::move(bodies);
+  return scene;
+}
 
 void set_weights(Contact& contact) {
   const std::vector<double> measures = contact::measures(surface_of(contact));

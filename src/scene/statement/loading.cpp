@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "base/error.hpp"
-#include "base/text.hpp"
 #include "scene/model/row_builder.hpp"
 
 namespace dotyk::scene {

@@ -3,7 +3,6 @@
 #include <map>
 
 #include "base/error.hpp"
-#include "base/text.hpp"
 #include "scene/statement/body.hpp"
 
 namespace dotyk::scene {
@@ -30,6 +29,10 @@ void add(Part& part, const std::string& load_case, bool pressure, AddValues&& ad
     elasticity::for_each_facet_point(*body.mesh, f, [&](const FacetPoint& p) { add_values(p, load.values); });
   add_nodal(body, load);
   body.facet_loads.push_back(std::move(load));
+}
+
+void add_volume_forces(const Body& body, std::vector<double>& nodal) {
+  elasticity::add_body_force(*body.mesh, [&](const elasticity::CellPoint& p) { return body.volume_load->at(p.cell, p.index, body.dimension()); }, nodal);
 }
 
 }  // namespace
@@ -76,14 +79,6 @@ void load(Part& part, const elasticity::VectorField& traction, const std::string
 void pressure(Part& part, const elasticity::ScalarField& value, const std::string& load_case) {
   add(part, load_case, true, [&](const FacetPoint& p, std::vector<double>& values) { values.push_back(value(p.x)); });
 }
-
-namespace {
-
-void add_volume_forces(const Body& body, std::vector<double>& nodal) {
-  elasticity::add_body_force(*body.mesh, [&](const elasticity::CellPoint& p) { return body.volume_load->at(p.cell, p.index, body.dimension()); }, nodal);
-}
-
-}  // namespace
 
 void load_volume(Body& body, const elasticity::CellField& force) {
   const std::size_t dim = body.dimension();

@@ -1,13 +1,18 @@
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "base/error.hpp"
-#include "base/text.hpp"
 #include "contact/sides.hpp"
+#include "contact/tangents.hpp"
 #include "scene/statement/body.hpp"
 
 namespace dotyk::scene {
 namespace {
+
+using mesh::Point;
+using problem::SupportLaw;
+using Kind = SupportLaw::Kind;
 
 /// A support of all the part's nodes, nothing prescribed yet.
 Support on_nodes(const Part& part, SupportKind kind) {
@@ -26,6 +31,58 @@ const Support& last_before(const Body& body, const Support& s, int node, int i) 
     for (std::size_t k = 0; k < other->nodes.size(); ++k)
       if (other->nodes[k] == node && other->components[k][i]) last = other;
   return *last;
+}
+
+bool shares_facet(const LawSupport& a, const LawSupport& b) {
+  const std::set<mesh::Facet> of_a(a.facets.begin(), a.facets.end());
+  return std::any_of(b.facets.begin(), b.facets.end(), [&](const mesh::Facet& f) { return of_a.contains(f); });
+}
+
+bool given(const SupportLaw& law) { return law.kind != Kind::free; }
+
+void require_no_other(const Body& body, const LawSupport& added) {
+  for (const LawSupport& known : body.laws) {
+    const bool normal = given(known.normal) && given(added.normal);
+    if ((!normal && !(given(known.tangential) && given(added.tangential))) || !shares_facet(known, added)) continue;
+    throw InputError(text("part '", added.part.name, "' of '", body.name, "' has a ", normal ? "normal" : "tangential", " law already, ",
+                          problem::support_name(normal ? known.normal.kind : known.tangential.kind),
+                          known.part == added.part ? "" : ", as part of '" + known.part.name + "'"));
+  }
+}
+
+/// Is a law along these directions, or one of them, of use at one node at least?
+template <class Directions>
+void require_free(const Body& body, const elasticity::Numbering& numbering, const LawSupport& on, const char* which, const SupportLaw& law,
+                  const Directions& directions) {
+  if (!given(law)) return;
+  for (const contact::NodeSide& side : on.nodes)
+    for (const Point& d : directions(side))
+      if (moves(body, numbering, side, d)) return;
+  throw InputError(text("contradictory supports on '", body.name, "': the ", which, " displacement of part '", on.part.name,
+                        "' is held at each of its nodes, and has the law ", problem::support_name(law.kind), " as well"));
+}
+
+/// Throws InputError for Coulomb friction without a normal law; under a given pressure its bound is given.
+void settle_coulomb(const Body& body, LawSupport& on) {
+  if (on.tangential.kind != Kind::coulomb) return;
+  if (!given(on.normal))
+    throw InputError(text("part '", on.part.name, "' of '", body.name, "' has Coulomb friction and no normal law: its bound is mu times the normal reaction; give 'normal', or given friction"));
+  if (on.normal.kind != Kind::load) return;
+  const double pressure = std::max(0.0, on.normal.value);
+  on.tangential = {Kind::friction, on.tangential.value * pressure};
+  for (double& mu : on.friction_value) mu *= pressure;
+}
+
+/// The bound or coefficient at each node, where it varies.
+std::vector<double> at_nodes(const Body& body, const LawSupport& on, const elasticity::ScalarField& friction) {
+  std::vector<double> values;
+  for (const contact::NodeSide& side : on.nodes) {
+    const Point x = body.mesh->point(side.node);
+    values.push_back(friction(x));
+    if (!(values.back() >= 0) || !std::isfinite(values.back()))
+      throw InputError(text("the friction is ", std::isnan(values.back()) ? "not a number" : text(values.back()), " at ", point_text(x.data(), body.dimension()), "; it must be zero or positive, and finite"));
+  }
+  return values;
 }
 
 }  // namespace
@@ -107,6 +164,80 @@ void displace(Part& part, const std::array<elasticity::ScalarField, 3>& componen
     support.values.push_back(value);
   }
   hold(*part.body, [&](Body& body) { body.supports.push_back(std::move(support)); });
+}
+
+void require_tangential(const SupportLaw& law, int dimension) {
+  const bool plane = dimension == 2;
+  const char* allowed = plane ? "free, prescribed, load, elastic, friction and capped_elastic"
+                              : "free, prescribed(0), elastic and friction, which have no direction of their own";
+  const auto refuse = [&](const std::string& why) {
+    throw InputError(text("a ", problem::support_name(law.kind), " law cannot be tangential: ", why,
+                          "; a tangential law ", plane ? "in the plane" : "in space", " is one of ", allowed));
+  };
+  problem::require_valid(law);
+  if (problem::one_sided(law.kind)) refuse("slip to either side is alike, and nothing is open");
+  if (problem::directed(law.kind)) refuse("slip to either side is alike");
+  if (plane) return;
+  if (law.kind == Kind::load) refuse("it does not say along which tangent (part:load does)");
+  if (law.kind == Kind::prescribed && law.value != 0) refuse("it does not say along which tangent (part:displace does)");
+  if (law.kind == Kind::capped_elastic) refuse("a spring that slips is not among the laws of two components");
+}
+
+std::vector<contact::NodeSide> law_sides(std::vector<contact::NodeSide> sides) {
+  for (contact::NodeSide& side : sides)
+    for (double& n : side.normal)
+      if (std::abs(n) < 1e-12) n = 0;
+  return sides;
+}
+
+bool unknown_along(const elasticity::Numbering& numbering, const std::vector<contact::NodeWeight>& nodes, const Point& direction, int dimension) {
+  for (const contact::NodeWeight& n : nodes)
+    for (int i = 0; i < dimension; ++i)
+      if (direction[i] != 0 && numbering.unknown[static_cast<std::size_t>(n.node) * dimension + i] >= 0) return true;
+  return false;
+}
+
+bool moves(const Body& body, const elasticity::Numbering& numbering, const contact::NodeSide& side, const Point& direction) {
+  const auto slides = [&](int node) {
+    return std::any_of(body.slides.begin(), body.slides.end(),
+                       [&](const SlideRow& slide) { return slide.node == node && std::abs(mesh::dot(slide.normal, direction)) > 1 - 1e-9; });
+  };
+  return std::any_of(side.own.begin(), side.own.end(), [&](const contact::NodeWeight& own) {
+    return !slides(own.node) && unknown_along(numbering, {own}, direction, body.dimension());
+  });
+}
+
+void require_laws_free(const Body& body, const elasticity::Numbering& numbering) {
+  for (const LawSupport& on : body.laws) {
+    require_free(body, numbering, on, "normal", on.normal, [](const contact::NodeSide& s) { return std::vector<Point>{s.normal}; });
+    require_free(body, numbering, on, "tangential", on.tangential,
+                 [&](const contact::NodeSide& s) { return contact::tangents(s.normal, body.dimension()); });
+  }
+}
+
+std::string describe(const LawSupport& support) {
+  std::string out = given(support.normal) ? "normal " + problem::describe(support.normal) : "";
+  if (given(support.tangential)) out += (out.empty() ? "" : "; ") + ("tangential " + problem::describe(support.tangential));
+  return out;
+}
+
+void support(Part& part, const SupportLaw& normal, const SupportLaw& tangential, const elasticity::ScalarField& friction) {
+  Body& body = *part.body;
+  problem::require_valid(normal);
+  require_tangential(tangential, body.dimension());
+  LawSupport added{part.mark(), part.facets, law_sides(contact::corner_sides(*part.body->mesh, part.facets)), normal, tangential};
+  if (friction) added.friction_value = at_nodes(body, added, friction);
+  require_no_other(body, added);
+  hold(body, [&](Body& changed) {
+    const auto same = std::find_if(changed.laws.begin(), changed.laws.end(), [&](const LawSupport& l) { return l.part == added.part; });
+    if (same == changed.laws.end()) {
+      changed.laws.push_back(std::move(added));
+    } else {
+      if (given(normal)) same->normal = normal;
+      if (given(tangential)) same->tangential = tangential, same->friction_value = added.friction_value;
+    }
+    for (LawSupport& on : changed.laws) settle_coulomb(changed, on);
+  });
 }
 
 }  // namespace dotyk::scene

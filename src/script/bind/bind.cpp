@@ -4,7 +4,6 @@
 #include <cstdio>
 
 #include "script/help/help.hpp"
-#include "script/help/help_lines.hpp"
 #include "script/help/nearest.hpp"
 #include "script/prompt/terminal.hpp"
 #include "script/bridge/position.hpp"

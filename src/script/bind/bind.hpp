@@ -8,7 +8,6 @@
 #include <optional>
 
 #include "base/error.hpp"
-#include "base/text.hpp"
 #include "problem/condensed.hpp"
 #include "problem/residual.hpp"
 #include "script/bind/setups.hpp"

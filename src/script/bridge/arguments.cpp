@@ -1,6 +1,5 @@
 #include "script/bridge/arguments.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "base/whole_file.hpp"

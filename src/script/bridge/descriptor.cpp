@@ -1,11 +1,9 @@
 #include "script/bridge/descriptor.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <map>
-#include <utility>
 
 #include "script/help/nearest.hpp"
 

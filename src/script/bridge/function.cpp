@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "base/error.hpp"
-#include "base/text.hpp"
 #include "script/bridge/arguments.hpp"
 #include "script/prompt/interrupt.hpp"
 #include "script/bridge/position.hpp"

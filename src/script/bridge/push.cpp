@@ -1,7 +1,5 @@
 #include "script/bridge/push.hpp"
 
-#include <algorithm>
-#include <new>
 #include <stdexcept>
 
 #include "script/bridge/descriptor.hpp"

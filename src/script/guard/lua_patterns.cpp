@@ -7,7 +7,6 @@
 #include "script/prompt/interrupt.hpp"
 #include "script/bridge/lua.hpp"
 #include "script/guard/lua_guards.hpp"
-#include "script/guard/replaced.hpp"
 
 namespace dotyk::script {
 namespace {

@@ -9,6 +9,9 @@
 
 namespace dotyk::script {
 
+// SHA-256 of some bytes as 64 hexadecimal digits (FIPS 180-4).
+std::string sha256(const std::string& bytes);
+
 class Manifest {
  public:
   // The script by name, its text where it is known before it runs, and its arguments. Seconds count from here.

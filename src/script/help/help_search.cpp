@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "script/help/help.hpp"
-#include "script/help/help_lines.hpp"
 
 namespace dotyk::script {
 namespace {

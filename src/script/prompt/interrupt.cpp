@@ -11,7 +11,7 @@
 
 #include "script/bridge/lua.hpp"
 #include "script/bridge/position.hpp"
-#include "script/guard/replaced.hpp"
+#include "script/guard/lua_guards.hpp"
 
 namespace dotyk::script {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "script/bridge/push.hpp"
 #include "script/complete/lua_tokens.hpp"
-#include "script/guard/strict.hpp"
+#include "script/guard/lua_guards.hpp"
 
 namespace dotyk::script {
 namespace {

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "base/error.hpp"
-#include "base/text.hpp"
 #include "script/prompt/interrupt.hpp"
 #include "script/bridge/position.hpp"
 #include "script/prompt/terminal.hpp"

@@ -1,5 +1,6 @@
 #include "shape/derivative/bordered.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -8,11 +9,151 @@
 #include "program/active_set.hpp"
 
 namespace dotyk::shape {
+namespace {
 
 using algebra::DenseMatrix;
 using algebra::Vector;
+using problem::FrictionGroup;
+using problem::Law;
+using problem::Problem;
+using problem::RowGroup;
 
-namespace {
+/// What is nothing, row by row; and what were nothing but for the multipliers' errors.
+struct Nothing {
+  Vector force, gap, exact_force;
+};
+
+Nothing nothing(const Problem& problem, const Vector& lambda, const Vector& x, double touching, double force_error) {
+  Vector stiffness = problem.row_stiffness();
+  const double stiffest = stiffness.size() ? stiffness.maxCoeff() : 1;
+  for (double& k : stiffness)
+    if (!(k > 0)) k = stiffest > 0 ? stiffest : 1;
+  double moved = 0;
+  for (int r = 0; r < x.size(); ++r) {
+    const double jump = std::abs(x[r] + problem.c[r]);
+    if (std::abs(problem.c[r]) < 1e6 * jump) moved = std::max(moved, jump);  // a gap that says "never" is no measure
+  }
+  Nothing n{Vector(x.size()), Vector(x.size()), Vector(x.size())};
+  for (int r = 0; r < x.size(); ++r) {
+    const double c = std::abs(problem.c[r]) < 1e6 * moved ? std::abs(problem.c[r]) : 0;
+    n.exact_force[r] = touching * (lambda.lpNorm<Eigen::Infinity>() + stiffness[r] * std::max(c, moved));
+    n.force[r] = std::max(force_error, n.exact_force[r]);
+    n.gap[r] = n.force[r] / stiffness[r];
+  }
+  return n;
+}
+
+class Branches {
+ public:
+  Branches(const Problem& problem, const problem::State& state, double touching, double force_error)
+      : problem_(problem), lambda_(state.lambda), x_(problem::jumps(problem, state.u)),
+        nothing_(nothing(problem, lambda_, x_, touching, force_error)), unknown_(problem.rows(), -1), weak_(problem.rows(), 0) {}
+
+  LawDerivative operator()() {
+    for (const RowGroup& group : problem_.groups)
+      for (int i = 0; i < group.count; ++i) scalar(group, i);
+    for (const FrictionGroup& group : problem_.friction)
+      for (int p = 0; p < group.points(); ++p) friction(group, p);
+    const int count = static_cast<int>(compliance_.size());
+    result_.C = Eigen::Map<const Vector>(compliance_.data(), count);
+    result_.F.resize(problem_.rows(), count);
+    result_.F.setFromTriplets(measured_.begin(), measured_.end());
+    measured_.insert(measured_.end(), following_.begin(), following_.end());
+    result_.E.resize(problem_.rows(), count);
+    result_.E.setFromTriplets(measured_.begin(), measured_.end());
+    result_.symmetric = following_.empty();
+    return std::move(result_);
+  }
+
+ private:
+  /// A new unknown in this direction of rows; returns it.
+  int add(int row, const Vector& direction, double compliance) {
+    const int j = static_cast<int>(compliance_.size());
+    for (int i = 0; i < direction.size(); ++i) measured_.emplace_back(row + i, j, direction[i]);
+    compliance_.push_back(compliance);
+    return j;
+  }
+  int add(int row, double sign, double stiffness) {
+    return add(row, Vector::Constant(1, sign), std::isinf(stiffness) ? 0 : 1 / stiffness);
+  }
+
+  void scalar(const RowGroup& group, int i) {
+    const int r = group.first + i;
+    const Law& law = *group.law;
+    const auto [low, high] = law.multipliers(i);
+    if (low == high) return;
+    if (!law.springs(i)) throw InputError(text(group.name, ": the ", law.name(), " law does not tell its springs; there is no derivative of its solutions"));
+    const problem::Springs springs = *law.springs(i);
+    const bool at_low = lambda_[r] - low <= nothing_.force[r], at_high = high - lambda_[r] <= nothing_.force[r];
+    if (!at_low && !at_high) {
+      if (springs.below != springs.above && std::abs(lambda_[r]) <= nothing_.force[r])
+        throw InputError(text(group.name, ": the ", law.name(), " law of ", problem_.name_of(r),
+                              " bears nothing and changes its stiffness there; the solution has no derivative"));
+      unknown_[r] = add(r, 1, lambda_[r] < 0 ? springs.below : springs.above);
+      return;
+    }
+    const auto [from, to] = problem::following(law, i);
+    if (at_low ? x_[r] < from - nothing_.gap[r] : x_[r] > to + nothing_.gap[r]) return;
+    require_precise(r, at_low ? lambda_[r] - low : high - lambda_[r], at_low ? from - x_[r] : x_[r] - to);
+    weak_[r] = 1;
+    unknown_[r] = at_low ? add(r, 1, springs.above) : add(r, -1, springs.below);
+    result_.weak.push_back(unknown_[r]);
+    result_.weak_row.push_back(r);
+  }
+
+  /// Is it the solution, and not its error, that makes force and gap nothing?
+  void require_precise(int r, double force, double gap) const {
+    const double ratio = nothing_.exact_force[r] / nothing_.force[r];
+    if (force <= nothing_.exact_force[r] && gap <= ratio * nothing_.gap[r]) return;
+    throw InputError(text("the solution is not precise enough to tell whether ", problem_.name_of(r), " presses: force ", force, ", multipliers are wrong by up to ",
+                          nothing_.force[r], "; solve with a smaller tol, or by pdas or newton"));
+  }
+
+  void friction(const FrictionGroup& group, int p) {
+    const int r = group.row(p), m = group.components, n = group.normal[p];
+    const double slope = n < 0 ? 0 : group.law->bound_slope(p), bound = group.bound(p, lambda_);
+    const Vector lambda = lambda_.segment(r, m), slip = x_.segment(r, m);
+    const double force = nothing_.force.segment(r, m).maxCoeff(), gap = nothing_.gap.segment(r, m).maxCoeff();
+    if (slope > 0 && weak_[n])
+      throw InputError(text(group.name, ": ", problem_.name_of(r), " touches without force, where its friction begins; the solution "
+                            "has no derivative with Coulomb friction there"));
+    if (slope > 0 && (unknown_[n] < 0 || lambda_[n] < -nothing_.force[n])) return;  // open, or pulled: no friction
+    if (slope > 0 && lambda_[n] <= nothing_.force[n])
+      throw InputError(text(group.name, ": ", problem_.name_of(r), " bears nothing, where its friction begins; the solution has no derivative with Coulomb friction there"));
+    if (lambda.norm() < bound - force) {
+      for (int i = 0; i < m; ++i) add(r + i, 1, Law::kUnbounded);
+      return;
+    }
+    if (slip.norm() <= gap && slip.norm() > gap * nothing_.exact_force[r] / nothing_.force[r])
+      throw InputError(text("the solution is not precise enough to tell whether ", problem_.name_of(r), " slips: slip ", slip.norm(),
+                            "; solve with a smaller tol, or by newton"));
+    if (slip.norm() <= gap)
+      throw InputError(text(group.name, ": ", problem_.name_of(r), " bears all its friction bound ", bound, " and does not slip: "
+                            "to one side it sticks, to the other it slips; the solution has no derivative there"));
+    slips(r, slip, bound);
+    if (slope == 0) {
+      result_.slips.push_back({r, slip / slip.norm()});
+      return;
+    }
+    for (int i = 0; i < m; ++i) following_.emplace_back(r + i, unknown_[n], slope * slip[i] / slip.norm());
+  }
+
+  /// In space the force b d turns with the slip: (b/‖x‖)(I − ddᵀ) x', a spring across d.
+  void slips(int row, const Vector& slip, double bound) {
+    if (slip.size() == 1) return;
+    add(row, Eigen::Vector2d(-slip[1], slip[0]) / slip.norm(), slip.norm() / bound);
+  }
+
+  const Problem& problem_;
+  const Vector& lambda_;
+  Vector x_;
+  Nothing nothing_;
+  std::vector<int> unknown_;  ///< of each scalar row, -1 where it has none
+  std::vector<char> weak_;    ///< of each row
+  std::vector<Eigen::Triplet<double>> measured_, following_;
+  std::vector<double> compliance_;
+  LawDerivative result_;
+};
 
 constexpr double kSingular = 1e-14;   ///< reciprocal condition of the scaled matrix
 constexpr double kDependent = 1e-11;  ///< pivots below are dependent rows; as in the steps of PDAS
@@ -74,6 +215,10 @@ program::QuadraticProgram program_of(const Bordered& bordered, const std::vector
 }
 
 }  // namespace
+
+LawDerivative law_derivative(const Problem& problem, const problem::State& state, double touching, double force_error) {
+  return Branches(problem, state, touching, force_error)();
+}
 
 Bordered::Bordered(const problem::CondensedProblem& condensed, const LawDerivative& law) : unknowns(law.size()) {
   const Eigen::Index n = unknowns, modes = condensed.kernel_size();

@@ -5,7 +5,6 @@
 
 #include "base/error.hpp"
 #include "base/listed.hpp"
-#include "base/text.hpp"
 #include "scene/result/load_derivative.hpp"
 
 namespace dotyk::shape {

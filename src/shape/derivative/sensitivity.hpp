@@ -7,7 +7,7 @@
 
 #include "base/monitor.hpp"
 #include "shape/derivative/bordered.hpp"
-#include "shape/derivative/row_changes.hpp"
+#include "shape/derivative/boundary_motion.hpp"
 
 namespace dotyk::shape {
 

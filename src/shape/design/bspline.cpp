@@ -1,10 +1,8 @@
 #include "shape/design/bspline.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "base/error.hpp"
-#include "base/text.hpp"
 
 namespace dotyk::shape {
 

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "base/error.hpp"
-#include "base/text.hpp"
 #include "scene/model/moved.hpp"
 #include "shape/derivative/boundary_motion.hpp"
 

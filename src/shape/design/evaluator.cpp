@@ -2,7 +2,6 @@
 
 #include "base/error.hpp"
 #include "base/stopwatch.hpp"
-#include "base/text.hpp"
 
 namespace dotyk::shape {
 

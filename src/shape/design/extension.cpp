@@ -1,15 +1,12 @@
 #include "shape/design/extension.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <map>
 
 #include "algebra/congruent.hpp"
 #include "algebra/dense/decompositions.hpp"
 #include "algebra/direct/cholesky.hpp"
 #include "base/error.hpp"
-#include "base/text.hpp"
 #include "elasticity/assembly.hpp"
 
 namespace dotyk::shape {

@@ -4,8 +4,7 @@
 #include <unordered_map>
 
 #include "base/error.hpp"
-#include "base/text.hpp"
-#include "mesh/edge_key.hpp"
+#include "mesh/facet_table.hpp"
 #include "shape/design/extension.hpp"
 
 namespace dotyk::shape {

@@ -5,7 +5,6 @@
 #include <memory>
 #include <utility>
 
-#include "base/error.hpp"
 #include "base/text.hpp"
 #include "shape/optimise/scaled_problem.hpp"
 

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "base/error.hpp"
-#include "base/text.hpp"
 #include "shape/optimise/linear_program.hpp"
 
 namespace dotyk::shape {

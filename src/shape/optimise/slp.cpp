@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "base/error.hpp"
-#include "base/text.hpp"
 #include "shape/optimise/linear_program.hpp"
 #include "shape/optimise/scaled_problem.hpp"
 

@@ -9,7 +9,7 @@
 #include "algebra/dense/dense.hpp"
 #include "algebra/dense/generalised_inverse.hpp"
 #include "algebra/dense/null_space.hpp"
-#include "algebra/entries_of.hpp"
+#include "algebra/symmetric_matrix.hpp"
 #include "base/text.hpp"
 #include "problem/coarser.hpp"
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "algebra/dense/lu.hpp"
+#include "algebra/dense/decompositions.hpp"
 #include "solver/active/step.hpp"
 #include "solver/rows/row_iteration.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "algebra/direct/factor_in_threads.hpp"
+#include "algebra/direct/blas_threads.hpp"
 #include "base/memory.hpp"
 #include "base/stopwatch.hpp"
 #include "base/text.hpp"

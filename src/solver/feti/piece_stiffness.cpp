@@ -4,7 +4,7 @@
 #include <numeric>
 
 #include "algebra/dense/decompositions.hpp"
-#include "algebra/direct/factor_in_threads.hpp"
+#include "algebra/direct/blas_threads.hpp"
 #include "base/memory.hpp"
 #include "base/text.hpp"
 

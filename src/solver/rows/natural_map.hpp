@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "algebra/dense/lu.hpp"
+#include "algebra/dense/decompositions.hpp"
 #include "problem/condensed.hpp"
 
 namespace dotyk::solver {

@@ -1,7 +1,7 @@
 #pragma once
 // Beams, thermoelastic ones, plates and contact problems of files for scripts, and for the calls that solve and draw them.
 #include "beam/solve.hpp"
-#include "fclib/solve.hpp"
+#include "fclib/contact_problem.hpp"
 #include "plate/solution.hpp"
 #include "script/bridge/library.hpp"
 #include "script/bridge/wrapped.hpp"

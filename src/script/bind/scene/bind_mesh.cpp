@@ -3,7 +3,7 @@
 #include "base/memory.hpp"
 #include "elasticity/refined.hpp"
 #include "mesh/generators.hpp"
-#include "mesh/submesh.hpp"
+#include "mesh/decomposition.hpp"
 #include "meshfile/load.hpp"
 #include "script/bind/bind.hpp"
 #include "script/bind/scene/space.hpp"
@@ -128,21 +128,6 @@ std::shared_ptr<MeshHandle> keep(Call& call) {
   return handle_of(mesh::keep(*whole, [&](const mesh::Point& x) { return chosen.truth({x.data(), dimension}); }, call.text("part")));
 }
 
-}  // namespace
-
-void require_room_to_refine(const mesh::Mesh& mesh, std::int64_t times) {
-  const double pieces = std::pow(mesh.dimension() == 2 ? 4 : 8, static_cast<double>(times));
-  const bool simplex = mesh.topology().corners == mesh.dimension() + 1, second = mesh.topology().order == 2;
-  using mesh::Family;
-  require_room(mesh.cell_count() * pieces / (simplex && mesh.dimension() == 3 ? 6 : simplex ? 2 : 1), mesh.dimension(),
-               simplex ? (second ? Family::p2 : Family::p1) : second ? Family::q2 : Family::q1);
-  constexpr double kMostNodes = 12e6;  // more than solvers of one machine take
-  if (const double nodes = mesh.node_count() * pieces; nodes > kMostNodes)
-    throw InputError(text("refined ", times, times == 1 ? " time" : " times", " the mesh would have about ", nodes, " nodes; at most ", kMostNodes, " are made"));
-}
-
-namespace {
-
 std::shared_ptr<MeshHandle> refined(Call& call) {
   auto mesh = call.self<MeshHandle>()->mesh;
   const auto times = call.integer("times");
@@ -231,6 +216,17 @@ void bind_mesh_file(Library& library) {
 }
 
 }  // namespace
+
+void require_room_to_refine(const mesh::Mesh& mesh, std::int64_t times) {
+  const double pieces = std::pow(mesh.dimension() == 2 ? 4 : 8, static_cast<double>(times));
+  const bool simplex = mesh.topology().corners == mesh.dimension() + 1, second = mesh.topology().order == 2;
+  using mesh::Family;
+  require_room(mesh.cell_count() * pieces / (simplex && mesh.dimension() == 3 ? 6 : simplex ? 2 : 1), mesh.dimension(),
+               simplex ? (second ? Family::p2 : Family::p1) : second ? Family::q2 : Family::q1);
+  constexpr double kMostNodes = 12e6;  // more than solvers of one machine take
+  if (const double nodes = mesh.node_count() * pieces; nodes > kMostNodes)
+    throw InputError(text("refined ", times, times == 1 ? " time" : " times", " the mesh would have about ", nodes, " nodes; at most ", kMostNodes, " are made"));
+}
 
 void bind_mesh(Library& library) {
   library.module("dotyk.mesh", "Meshes: made here or by Gmsh, read from files, moved by mesh:transform.");

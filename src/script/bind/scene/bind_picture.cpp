@@ -4,7 +4,6 @@
 #include "figure/canvas/geometry.hpp"
 #include "base/error.hpp"
 #include "figure/compose/compose.hpp"
-#include "figure/compose/compose_pieces.hpp"
 #include "script/bind/bind.hpp"
 #include "script/bind/figure_keys.hpp"
 
@@ -17,12 +16,6 @@ struct Panel {
   figure::ScenePicture picture;
   std::function<void(figure::ScenePicture&, double)> magnify;
 };
-
-}  // namespace
-
-template <> struct Wrapped<Panel> : Called<"picture"> {};
-
-namespace {
 
 using figure::FieldChoice;
 using figure::PressureStyle;
@@ -217,6 +210,8 @@ std::vector<Key> picture_keys() {
 }
 
 }  // namespace
+
+template <> struct Wrapped<Panel> : Called<"picture"> {};
 
 void bind_picture(Library& library) {
   library.type<Panel>("What solution:picture makes: to be drawn beside others by dotyk.pictures.").text([](const Panel& panel) {

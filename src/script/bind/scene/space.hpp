@@ -3,14 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "algebra/types.hpp"
 #include "base/error.hpp"
-#include "base/text.hpp"
 #include "elasticity/load.hpp"
 #include "script/bind/models/models.hpp"
 #include "script/bridge/function.hpp"
