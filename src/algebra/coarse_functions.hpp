@@ -9,7 +9,7 @@
 #include "algebra/types.hpp"
 #include "base/buckets.hpp"
 #include "base/parallel.hpp"
-#include "base/shared_list.hpp"
+#include "base/lists.hpp"
 
 namespace dotyk::algebra {
 

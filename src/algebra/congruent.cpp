@@ -7,7 +7,6 @@
 
 #include "base/buckets.hpp"
 #include "base/parallel.hpp"
-#include "base/some_rows.hpp"
 
 namespace dotyk::algebra {
 namespace {

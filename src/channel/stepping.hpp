@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "algebra/direct/sparse_lu.hpp"
+#include "algebra/direct/indefinite.hpp"
 #include "algebra/types.hpp"
 #include "base/monitor.hpp"
 #include "channel/data.hpp"

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "mesh/mesh.hpp"
+#include "mesh/point.hpp"
 
 namespace dotyk::contact {
 
@@ -25,7 +27,7 @@ inline mesh::Point mean_place(const std::vector<NodeWeight>& nodes, const mesh::
 
 /// One condition of non-penetration at a corner of the first part's facets:
 ///   normal·(Σ weight u_own − Σ weight u_partner) ≤ gap        (no partners against a rigid shape)
-/// Cells of order 1: a node is its own alone. Order 2: the condition is asked for in the mean with the corner's dual hat ψ (dual_hats.hpp),
+/// Cells of order 1: a node is its own alone. Order 2: the condition is asked for in the mean with the corner's dual hat ψ (DualHats),
 /// own weights are ∫ψφ_k/∫ψ, so that the pressure is piecewise linear: one order less than the displacement, as is stable
 /// (Hild and Laborde 2002; in space, with dual hats, Wohlmuth, Popp, Gee and Wall 2012). Nodal conditions would not do: on
 /// quadratic triangles ∫φ of a corner is 0. Hats of their own would do, but the pressure they give swings about the true one
@@ -51,5 +53,25 @@ struct Tie {
   std::vector<NodeWeight> own;
   std::vector<NodeWeight> partners;
 };
+
+/// The axis that the first tangent in space lies along, made perpendicular: the one that n is least along.
+inline int tangent_axis(const mesh::Point& n) {
+  int least = 0;  // axes stay axes where they can
+  for (int i = 1; i < 3; ++i)
+    if (std::abs(n[i]) < std::abs(n[least]) - 1e-12) least = i;
+  return least;
+}
+
+/// Unit tangents to the unit normal n: in the plane the one that n turned by 90° anticlockwise is; in space two,
+/// perpendicular to each other, along axes where n is along one.
+inline std::vector<mesh::Point> tangents(const mesh::Point& n, int dimension) {
+  if (dimension == 2) return {{-n[1], n[0], 0}};
+  const int least = tangent_axis(n);
+  mesh::Point t = mesh::times(-n[least], n);
+  t[least] += 1;
+  const double size = mesh::length(t);
+  for (double& v : t) v = std::abs(v) < 1e-15 ? 0 : v / size;
+  return {t, mesh::cross(n, t)};
+}
 
 }  // namespace dotyk::contact

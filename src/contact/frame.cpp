@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "algebra/dense/decompositions.hpp"
-#include "contact/tangents.hpp"
+#include "contact/contact_row.hpp"
 
 namespace dotyk::contact {
 namespace {

@@ -3,7 +3,7 @@
 #include <map>
 #include <numeric>
 
-#include "contact/dual_hats.hpp"
+#include "contact/sides.hpp"
 #include "contact/pairing.hpp"
 #include "contact/second_facets.hpp"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contact/tangents.hpp"
+#include "contact/contact_row.hpp"
 
 namespace dotyk::contact {
 namespace {

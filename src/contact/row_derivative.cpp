@@ -5,7 +5,7 @@
 
 #include "base/error.hpp"
 #include "contact/frame.hpp"
-#include "contact/tangents.hpp"
+#include "contact/contact_row.hpp"
 #include "elasticity/shape_derivative.hpp"
 
 namespace dotyk::contact {

@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "base/error.hpp"
-#include "contact/dual_hats.hpp"
 
 namespace dotyk::contact {
 

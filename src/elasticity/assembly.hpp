@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "algebra/types.hpp"
-#include "base/shared_list.hpp"
+#include "base/lists.hpp"
 #include "elasticity/load.hpp"
 #include "elasticity/material.hpp"
 #include "mesh/mesh.hpp"

@@ -5,7 +5,6 @@
 #include <numeric>
 #include <utility>
 
-#include "base/error.hpp"
 #include "base/memory.hpp"
 #include "elasticity/kernel.hpp"
 #include "mesh/second_order.hpp"

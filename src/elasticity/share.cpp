@@ -4,7 +4,6 @@
 #include <iterator>
 
 #include "algebra/congruent.hpp"
-#include "base/error.hpp"
 #include "base/memory.hpp"
 #include "elasticity/refined.hpp"
 #include "mesh/decomposition.hpp"

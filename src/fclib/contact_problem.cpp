@@ -8,10 +8,9 @@
 
 #include "algebra/dense/dense.hpp"
 #include "algebra/direct/cholesky.hpp"
-#include "algebra/direct/sparse_lu.hpp"
-#include "base/error.hpp"
+#include "algebra/direct/indefinite.hpp"
 #include "base/memory.hpp"
-#include "base/readable_file.hpp"
+#include "base/place.hpp"
 
 namespace dotyk::fclib {
 namespace {

@@ -2,7 +2,6 @@
 #include <map>
 #include <vector>
 
-#include "base/error.hpp"
 #include "base/memory.hpp"
 #include "fclib/contact_problem.hpp"
 #include "fclib/hdf5_object.hpp"

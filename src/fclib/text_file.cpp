@@ -6,7 +6,6 @@
 #include <string_view>
 #include <vector>
 
-#include "base/error.hpp"
 #include "base/listed.hpp"
 #include "base/memory.hpp"
 #include "fclib/contact_problem.hpp"

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "base/error.hpp"
-#include "base/parallel.hpp"
 #include "mesh/facet_table.hpp"
 
 namespace dotyk::mesh {

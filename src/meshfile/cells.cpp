@@ -4,7 +4,6 @@
 #include <map>
 #include <set>
 
-#include "base/error.hpp"
 #include "base/memory.hpp"
 #include "mesh/second_order.hpp"
 

@@ -8,7 +8,6 @@
 #include <cstdio>
 #include <stdexcept>
 
-#include "reader/bytes.hpp"
 #include "reader/reader_main.hpp"
 
 namespace {

@@ -12,9 +12,8 @@
 #include <cstring>
 #include <fstream>
 
-#include "base/error.hpp"
 #include "base/memory.hpp"
-#include "base/readable_file.hpp"
+#include "base/place.hpp"
 #include "meshfile/formats.hpp"
 #include "reader/process.hpp"
 

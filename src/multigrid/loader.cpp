@@ -7,7 +7,6 @@
 #include <stdexcept>
 
 #include "algebra/direct/blas_threads.hpp"
-#include "base/error.hpp"
 #include "base/open_library.hpp"
 #include "multigrid/multigrid.hpp"
 #include "multigrid/start_ranks.hpp"

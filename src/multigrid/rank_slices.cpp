@@ -8,7 +8,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "base/error.hpp"
 #include "base/memory.hpp"
 #include "base/parallel.hpp"
 #include "multigrid/processes/petsc_session.hpp"

@@ -17,7 +17,6 @@
 #include "multigrid/cycle/cycle.hpp"
 #include "multigrid/processes/death_watch.hpp"
 #include "multigrid/rank_slices.hpp"
-#include "multigrid/rank_vectors.hpp"
 
 namespace dotyk::multigrid {
 

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "base/error.hpp"
-#include "base/text.hpp"
 #include "solver/core/verdict.hpp"
 
 namespace dotyk::plate {

@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "algebra/dense/decompositions.hpp"
-#include "algebra/types.hpp"
 #include "base/stopwatch.hpp"
 #include "base/text.hpp"
 #include "plate/solution.hpp"
@@ -11,7 +10,6 @@
 
 namespace dotyk::plate {
 
-using algebra::SparseRows;
 using algebra::Vector;
 using problem::Problem;
 

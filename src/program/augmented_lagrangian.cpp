@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "algebra/direct/quasi_definite.hpp"
+#include "algebra/direct/indefinite.hpp"
 #include "base/error.hpp"
 #include "base/moderate.hpp"
 #include "base/stopwatch.hpp"

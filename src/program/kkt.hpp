@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "algebra/direct/quasi_definite.hpp"
+#include "algebra/direct/indefinite.hpp"
 #include "program/program.hpp"
 
 namespace dotyk::program {

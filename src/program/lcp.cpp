@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "algebra/dense/decompositions.hpp"
-#include "algebra/direct/sparse_lu.hpp"
+#include "algebra/direct/indefinite.hpp"
 #include "algebra/direct/stop_factoring.hpp"
 #include "base/error.hpp"
 #include "base/stopwatch.hpp"

@@ -4,7 +4,7 @@
 
 #include "base/error.hpp"
 #include "base/memory.hpp"
-#include "base/readable_file.hpp"
+#include "base/place.hpp"
 #include "base/text.hpp"
 #include "program/lcp.hpp"
 

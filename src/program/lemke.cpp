@@ -2,7 +2,7 @@
 #include <optional>
 #include <random>
 
-#include "algebra/direct/sparse_lu.hpp"
+#include "algebra/direct/indefinite.hpp"
 #include "base/stopwatch.hpp"
 #include "program/lcp.hpp"
 

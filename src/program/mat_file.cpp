@@ -6,7 +6,7 @@
 
 #include "base/error.hpp"
 #include "base/memory.hpp"
-#include "base/readable_file.hpp"
+#include "base/place.hpp"
 #include "program/mat_variable.hpp"
 #include "reader/process.hpp"
 

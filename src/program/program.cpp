@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "algebra/direct/quasi_definite.hpp"
+#include "algebra/direct/indefinite.hpp"
 #include "base/error.hpp"
 #include "base/text.hpp"
 

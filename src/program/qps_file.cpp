@@ -10,7 +10,7 @@
 #include "base/error.hpp"
 #include "base/listed.hpp"
 #include "base/memory.hpp"
-#include "base/readable_file.hpp"
+#include "base/place.hpp"
 #include "base/text.hpp"
 
 namespace dotyk::program {

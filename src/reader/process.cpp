@@ -15,8 +15,6 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "base/error.hpp"
-#include "base/memory.hpp"
 #include "base/open_library.hpp"
 #include "reader/bytes.hpp"
 

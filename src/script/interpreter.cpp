@@ -4,8 +4,6 @@
 
 #include "script/bind/bind.hpp"
 #include "script/prompt/kept_locals.hpp"
-#include "script/bridge/library.hpp"
-#include "script/bridge/lua.hpp"
 #include "script/guard/lua_guards.hpp"
 #include "script/bridge/lua_side.hpp"
 #include "script/bridge/position.hpp"

@@ -24,7 +24,6 @@
 
 #include "elasticity/share.hpp"
 #include "figure/compose/compose.hpp"
-#include "multigrid/slices.hpp"
 #include "multigrid/start_ranks.hpp"
 #include "scene/result/inner_cells.hpp"
 #include "script/interpreter.hpp"

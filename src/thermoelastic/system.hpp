@@ -2,8 +2,7 @@
 
 #include <optional>
 
-#include "algebra/direct/quasi_definite.hpp"
-#include "thermoelastic/interface.hpp"
+#include "algebra/direct/indefinite.hpp"
 #include "thermoelastic/model.hpp"
 
 namespace dotyk::thermoelastic {

@@ -1,7 +1,7 @@
 #include <doctest/doctest.h>
 
 #include "../support/random.hpp"
-#include "algebra/direct/quasi_definite.hpp"
+#include "algebra/direct/indefinite.hpp"
 
 using namespace dotyk;
 using algebra::DenseMatrix;

@@ -1,4 +1,4 @@
-#include "algebra/direct/sparse_lu.hpp"
+#include "algebra/direct/indefinite.hpp"
 
 #include <doctest/doctest.h>
 

@@ -13,7 +13,7 @@
 #include "contact/frame.hpp"
 #include "contact/matching.hpp"
 #include "contact/sides.hpp"
-#include "contact/tangents.hpp"
+#include "contact/contact_row.hpp"
 #include "mesh/generators.hpp"
 
 using namespace dotyk;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.hpp"
 #include "base/memory.hpp"
 #include "base/stopwatch.hpp"
 

@@ -8,7 +8,6 @@
 #include "base/error.hpp"
 #include "figure/canvas/paper.hpp"
 #include "figure/canvas/sheet.hpp"
-#include "figure/chart/chart.hpp"
 #include "figure/chart/chart_series.hpp"
 #include "figure/chart/chart_texts.hpp"
 #include "figure/door/drawing.hpp"

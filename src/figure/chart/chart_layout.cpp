@@ -4,7 +4,7 @@
 #include <iterator>
 #include <limits>
 
-#include "figure/chart/hidden.hpp"
+#include "figure/chart/chart_series.hpp"
 
 namespace dotyk::figure {
 

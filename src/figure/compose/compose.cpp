@@ -5,7 +5,6 @@
 #include <set>
 
 #include "base/error.hpp"
-#include "figure/canvas/geometry.hpp"
 #include "figure/compose/outline.hpp"
 #include "figure/scene/contact_map.hpp"
 #include "mesh/second_order.hpp"

@@ -2,9 +2,7 @@
 
 #include <cstdio>
 
-#include "base/error.hpp"
 #include "base/whole_file.hpp"
-#include "figure/canvas/plane.hpp"
 #include "figure/canvas/window.hpp"
 #include "figure/door/drawing.hpp"
 

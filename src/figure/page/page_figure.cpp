@@ -3,7 +3,6 @@
 #include <set>
 
 #include "figure/door/drawing.hpp"
-#include "figure/canvas/legend.hpp"
 #include "figure/canvas/paper.hpp"
 #include "figure/canvas/sheet.hpp"
 #include "figure/page/page_cells.hpp"

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "base/buckets.hpp"
-#include "base/some_rows.hpp"
 #include "multigrid/rows/half_matrix.hpp"
 #include "multigrid/rows/local_rows.hpp"
 

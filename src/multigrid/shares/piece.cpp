@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "algebra/symmetric_matrix.hpp"
-#include "multigrid/rows/own_rows.hpp"
 #include "multigrid/shares/messages.hpp"
 
 namespace dotyk::multigrid {

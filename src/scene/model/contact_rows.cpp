@@ -6,7 +6,7 @@
 
 #include "base/error.hpp"
 #include "contact/multipliers.hpp"
-#include "contact/tangents.hpp"
+#include "contact/contact_row.hpp"
 
 namespace dotyk::scene {
 

@@ -6,7 +6,7 @@
 
 #include "algebra/dense/decompositions.hpp"
 #include "contact/row_derivative.hpp"
-#include "contact/tangents.hpp"
+#include "contact/contact_row.hpp"
 
 namespace dotyk::scene {
 namespace {

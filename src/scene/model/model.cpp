@@ -4,14 +4,12 @@
 #include <cmath>
 
 #include "algebra/congruent.hpp"
-#include "base/error.hpp"
 #include "base/listed.hpp"
 #include "base/memory.hpp"
 #include "base/stopwatch.hpp"
 #include "elasticity/refined.hpp"
 #include "elasticity/rigid_modes.hpp"
 #include "elasticity/weak_motions.hpp"
-#include "multigrid/slices.hpp"
 #include "problem/coarser.hpp"
 #include "problem/contradiction.hpp"
 #include "scene/model/row_builder.hpp"

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
-#include "contact/tangents.hpp"
+#include "contact/contact_row.hpp"
 
 namespace dotyk::scene {
 namespace {

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <iomanip>
 
-#include "base/error.hpp"
 #include "base/whole_file.hpp"
 #include "scene/result/solution.hpp"
 

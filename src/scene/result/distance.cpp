@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "base/error.hpp"
-#include "elasticity/interpolation.hpp"
 #include "elasticity/load.hpp"
 #include "scene/result/energy_norm.hpp"
 #include "scene/result/locate.hpp"

@@ -5,7 +5,6 @@
 #include <map>
 
 #include "elasticity/assembly.hpp"
-#include "elasticity/load.hpp"
 #include "solver/active/held_stiffness.hpp"
 
 namespace dotyk::scene {

@@ -5,21 +5,20 @@
 #include <cmath>
 #include <iomanip>
 
+#include "algebra/dense/decompositions.hpp"
 #include "base/error.hpp"
 #include "base/stopwatch.hpp"
-#include "problem/free_motions.hpp"
 #include "scene/result/inner_cells.hpp"
 #include "scene/solve/doubts.hpp"
 #include "solver/core/settle.hpp"
 #include "solver/core/verdict.hpp"
 
 namespace dotyk::scene {
+namespace {
 
 using algebra::Vector;
 using mesh::Point;
 using solver::kOnBound;
-
-namespace {
 
 /// Smaller ones are rounding.
 constexpr double kRounding = 1e-12;
@@ -82,6 +81,53 @@ void settle(const Scene& scene, const Model& model, const problem::Problem& prob
 problem::Displacement state_before(const Past& past, const problem::Displacement& u) {
   if (!past.steps.empty()) return past.steps.back()->result().state.u;
   return past.slip.size() > 0 ? u : problem::Displacement();
+}
+
+/// A force without the rounding left in components that balance.
+std::string force_text(std::array<double, 3> force, int dimension) {
+  const double length = std::hypot(force[0], force[1], force[2]);
+  for (double& component : force)
+    if (std::abs(component) < 1e-12 * length) component = 0;
+  return point_text(force.data(), dimension);
+}
+
+/// To so many unknowns printing a solution may cost the steps of path_error(), some tenths of a second.
+constexpr int kMostToPrintPath = 4000;
+/// A smaller path error is rounding.
+constexpr double kSamePath = 1e-7;
+
+/// What one load step from rest leaves out of friction's path; empty where nothing.
+std::string path_text(const Solution& s) {
+  if (s.follows() || !s.result().converged || !follows_path(s)) return "";
+  const std::string known = "  friction follows the path of the load, this is one step of it: ";
+  if (s.unknowns() > kMostToPrintPath) return known + "path_error() says how far from eight steps\n";
+  Monitor quiet;
+  try {
+    const double error = s.path_error(quiet);
+    return known + (error > kSamePath ? text(std::setprecision(3), "friction forces differ by ", 100 * error, " % from those of eight steps\n") : "eight steps give the same\n");
+  } catch (const InputError& error) {
+    return known + error.what() + "\n";
+  }
+}
+
+/// How the motion displaces the unknowns of the body, and how far it moves the node that it moves most.
+std::pair<Vector, double> displacement(const Solution& solution, int body, const RigidMotion& motion) {
+  const mesh::Mesh& mesh = *solution.body(body).mesh;
+  const elasticity::Numbering& numbering = solution.model().numbering[body];
+  Vector w = Vector::Zero(numbering.count());
+  double most = 0;
+  for (int n = 0; n < mesh.node_count(); ++n) {
+    const mesh::Point moved = mesh::plus(motion.translation, mesh::cross(motion.rotation, mesh::minus(mesh.point(n), motion.about)));
+    most = std::max(most, mesh::length(moved));
+    for (int i = 0; i < mesh.dimension(); ++i) {
+      const int unknown = numbering.unknown[n * mesh.dimension() + i];
+      if (unknown >= 0) w[unknown] = moved[i];
+      else if (moved[i] != 0)
+        throw InputError(text("its supports hold '", solution.body(body).name, "' at (", mesh.point(n)[0], ", ", mesh.point(n)[1],
+                              mesh.dimension() == 3 ? text(", ", mesh.point(n)[2]) : "", ") against this motion"));
+    }
+  }
+  return {std::move(w), most};
 }
 
 }  // namespace
@@ -196,37 +242,6 @@ bool Solution::active(int row) const {
   return !result_.active_sets.empty() && result_.active_sets.back()[row];
 }
 
-namespace {
-
-/// A force without the rounding left in components that balance.
-std::string force_text(std::array<double, 3> force, int dimension) {
-  const double length = std::hypot(force[0], force[1], force[2]);
-  for (double& component : force)
-    if (std::abs(component) < 1e-12 * length) component = 0;
-  return point_text(force.data(), dimension);
-}
-
-/// To so many unknowns printing a solution may cost the steps of path_error(), some tenths of a second.
-constexpr int kMostToPrintPath = 4000;
-/// A smaller path error is rounding.
-constexpr double kSamePath = 1e-7;
-
-/// What one load step from rest leaves out of friction's path; empty where nothing.
-std::string path_text(const Solution& s) {
-  if (s.follows() || !s.result().converged || !follows_path(s)) return "";
-  const std::string known = "  friction follows the path of the load, this is one step of it: ";
-  if (s.unknowns() > kMostToPrintPath) return known + "path_error() says how far from eight steps\n";
-  Monitor quiet;
-  try {
-    const double error = s.path_error(quiet);
-    return known + (error > kSamePath ? text(std::setprecision(3), "friction forces differ by ", 100 * error, " % from those of eight steps\n") : "eight steps give the same\n");
-  } catch (const InputError& error) {
-    return known + error.what() + "\n";
-  }
-}
-
-}  // namespace
-
 std::string describe(const Solution& s) {
   std::string out = "solution: " + solver::ending(s.result()) + "\n";
   out += text("  unknowns ", s.model().problem.all_unknowns(), ", rows ", s.rows(), ", energy ", s.energy(), "\n");
@@ -250,6 +265,25 @@ std::string describe(const Solution& s) {
   out += text(std::setprecision(3), "  seconds: total ", t.total, " (assembly ", t.assembly, ", motions ", t.motions, ", ordering ", t.ordering,
               ", factor ", t.factor, ", iterate ", t.iterate, ", recover ", t.recover, ")");
   return out + describe(doubts(s));
+}
+
+std::shared_ptr<Solution> moved_rigidly(const Solution& solution, int body, const RigidMotion& motion) {
+  require_whole(solution.scene(), "a solution moved rigidly");
+  const problem::Problem& problem = solution.model().problem;
+  const problem::Block& block = problem.blocks[body];
+  if (block.K.rows() == 0) throw InputError("a step that is not the last of its history has no other members; solve up to it");
+  const auto [w, most] = displacement(solution, body, motion);
+  constexpr double kRounding = 1e-9;
+  const Vector amounts = block.kernel.cols() > 0 ? algebra::least_squares(block.kernel, w) : Vector();
+  const double held = block.kernel.cols() > 0 ? (block.kernel * amounts - w).lpNorm<Eigen::Infinity>() : w.lpNorm<Eigen::Infinity>();
+  if (held > kRounding * most) throw InputError(text("supports hold '", block.name, "' elastically against this motion"));
+  problem::State state = solution.result().state;
+  state.u.change().segment(block.first, block.size()) += w;
+  const double off = problem::distance_from_laws(problem, state);
+  if (!(off <= solution.result().noise))
+    throw InputError(text("contacts or laws do not allow it: moved by this, '", block.name, "' is ", off, " off its laws (relative; rounding leaves ",
+                          solution.result().noise, "). Solutions that differ by a motion say so in their reason"));
+  return solution.with(state.u.here());
 }
 
 }  // namespace dotyk::scene

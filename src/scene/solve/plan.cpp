@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "algebra/direct/stop_factoring.hpp"
-#include "base/error.hpp"
 #include "base/listed.hpp"
 #include "base/memory.hpp"
 #include "elasticity/rigid_modes.hpp"

@@ -2,12 +2,12 @@
 #include <utility>
 
 #include "algebra/direct/stop_factoring.hpp"
-#include "base/error.hpp"
 #include "base/memory.hpp"
 #include "base/stopwatch.hpp"
 #include "scene/result/solution.hpp"
 #include "solver/active/pdas.hpp"
 #include "solver/core/default_method.hpp"
+#include "solver/pieces/enumeration.hpp"
 
 namespace dotyk::scene {
 
@@ -285,6 +285,29 @@ class History {
 std::shared_ptr<Solution> solve(std::shared_ptr<const Scene> scene, const solver::Method& method, const Start& start,
                                 Monitor& monitor, const std::vector<Step>& steps) {
   return History(std::move(scene), method, start, monitor).run(steps);
+}
+
+AllSolutions all_solutions(std::shared_ptr<const Scene> scene, Monitor& monitor) {
+  Stopwatch watch;
+  scene = std::make_shared<const Scene>(*scene);
+  problem::Clock clock;
+  const Model model = build(*scene, clock, monitor);
+  solver::Enumeration found = solver::enumerate(model.problem, monitor);
+  AllSolutions all{{}, {}, found.summary()};
+  const auto add = [&](solver::Enumeration::Solution& each) {
+    each.result.clock.assembly += clock.assembly;
+    all.solutions.push_back(std::make_shared<Solution>(scene, model, nullptr, std::move(each.result), Past{}));
+    all.solutions.back()->set_total(watch.seconds());
+  };
+  for (solver::Enumeration::Solution& each : found.solutions) add(each);
+  for (solver::Enumeration::Family& family : found.families) {
+    all.families.push_back({family.dimension, {}, family.unbounded > 0, family.forces_only, family.connected});
+    for (solver::Enumeration::Solution& end : family.ends) {
+      all.families.back().ends.push_back(static_cast<int>(all.solutions.size()));
+      add(end);
+    }
+  }
+  return all;
 }
 
 }  // namespace dotyk::scene

@@ -3,8 +3,7 @@
 #include <set>
 
 #include "base/error.hpp"
-#include "contact/sides.hpp"
-#include "contact/tangents.hpp"
+#include "contact/contact_row.hpp"
 #include "scene/statement/body.hpp"
 
 namespace dotyk::scene {

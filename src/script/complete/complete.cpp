@@ -5,7 +5,6 @@
 #include <iterator>
 
 #include "script/complete/complete_context.hpp"
-#include "script/complete/lua_tokens.hpp"
 #include "script/bridge/library.hpp"
 
 namespace dotyk::script {

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "script/prompt/interrupt.hpp"
-#include "script/bridge/lua.hpp"
 #include "script/guard/lua_guards.hpp"
 
 namespace dotyk::script {

@@ -13,7 +13,6 @@
 
 #include "base/whole_file.hpp"
 #include "script/bridge/library.hpp"
-#include "script/bridge/lua.hpp"
 #include "script/bridge/position.hpp"
 #include "script/guard/lua_guards.hpp"
 

@@ -9,7 +9,6 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include "script/bridge/lua.hpp"
 #include "script/bridge/position.hpp"
 #include "script/guard/lua_guards.hpp"
 

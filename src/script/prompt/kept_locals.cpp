@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "script/bridge/push.hpp"
-#include "script/complete/lua_tokens.hpp"
+#include "script/complete/complete_context.hpp"
 #include "script/guard/lua_guards.hpp"
 
 namespace dotyk::script {

@@ -11,12 +11,10 @@
 #include <vector>
 
 #include "base/stopwatch.hpp"
-#include "script/bridge/lua.hpp"
 #include "script/bridge/lua_side.hpp"
 #include "script/bridge/position.hpp"
 #include "script/bridge/push.hpp"
-#include "script/complete/complete.hpp"
-#include "script/complete/lua_tokens.hpp"
+#include "script/complete/complete_context.hpp"
 #include "script/interpreter.hpp"
 #include "script/prompt/interrupt.hpp"
 #include "script/prompt/kept_locals.hpp"

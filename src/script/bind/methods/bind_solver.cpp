@@ -1,6 +1,4 @@
-#include "scene/solve/all_solutions.hpp"
 #include "script/bind/bind.hpp"
-#include "script/bind/models/models.hpp"
 #include "script/bind/scene/space.hpp"
 #include "script/help/nearest.hpp"
 

@@ -1,6 +1,4 @@
 // Figures of beams and of the laws of their supports.
-#include "figure/compose/compose_beam.hpp"
-#include "script/bind/bind.hpp"
 #include "script/bind/models/models.hpp"
 #include "script/bind/figure_keys.hpp"
 

@@ -1,7 +1,6 @@
 // Solved plates and their figures.
 #include "figure/compose/compose_plate.hpp"
 #include "plate/reaction.hpp"
-#include "script/bind/bind.hpp"
 #include "script/bind/figure_keys.hpp"
 #include "script/bind/models/models.hpp"
 #include "solver/core/verdict.hpp"

@@ -1,6 +1,5 @@
 #include <cstdio>
 
-#include "script/bind/bind.hpp"
 #include "script/bind/figure_keys.hpp"
 
 namespace dotyk::script {

@@ -7,7 +7,6 @@
 #include "meshfile/load.hpp"
 #include "script/bind/bind.hpp"
 #include "script/bind/scene/space.hpp"
-#include "script/prompt/watch.hpp"
 
 namespace dotyk::script {
 namespace {

@@ -2,9 +2,7 @@
 #include <cstdio>
 
 #include "figure/canvas/geometry.hpp"
-#include "base/error.hpp"
 #include "figure/compose/compose.hpp"
-#include "script/bind/bind.hpp"
 #include "script/bind/figure_keys.hpp"
 
 namespace dotyk::script {

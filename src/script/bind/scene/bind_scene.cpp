@@ -1,6 +1,5 @@
 #include "algebra/direct/stop_factoring.hpp"
 #include "scene/study/inf_sup.hpp"
-#include "problem/solvability.hpp"
 #include "problem/uniqueness.hpp"
 #include "scene/model/model.hpp"
 #include "script/bind/bind.hpp"

@@ -60,7 +60,6 @@ Dual Design::dual(const shape::Quantity& quantity) const {
 namespace {
 
 using shape::DesignState;
-using shape::Velocities;
 
 Eigen::Index size(const Design& d) { return d.derivatives ? d.state->space().variables() : 0; }
 

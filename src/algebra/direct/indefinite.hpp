@@ -6,6 +6,22 @@
 
 namespace dotyk::algebra {
 
+/// Sparse LU of a square, possibly indefinite matrix (both triangles stored), by UMFPACK.
+class SparseLu {
+ public:
+  /// `a` must live as long.
+  explicit SparseLu(const SparseMatrix& a);
+
+  /// The matrix is singular to working precision.
+  bool singular() const { return singular_; }
+  Vector solve(const Vector& b) const;
+
+ private:
+  const SparseMatrix& a_;
+  std::shared_ptr<void> numeric_;  ///< UMFPACK's factors
+  bool singular_ = false;
+};
+
 /// Sparse factorisation A = Qᵀ L D Lᵀ Q (Q a permutation by AMD, D diagonal) of a symmetric matrix
 /// that need not be positive definite. It is stable, whatever the order, for a quasidefinite matrix
 /// [H Gᵀ; G −F] with H and F positive definite (Vanderbei 1995), and says by the signs of D how many
