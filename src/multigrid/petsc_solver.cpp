@@ -64,14 +64,9 @@ class PetscSolver final : public algebra::SpdSolver {
   bool set(const algebra::Triplets& changed, const std::vector<char>& held) override {
     monitor_.check();
     if (held.size() != numbering_->slot().size()) throw std::runtime_error("multigrid: the matrix has another size than the one that the solver was made for");
-    const std::lock_guard lock(only_one());
     const Ranks& ranks = workers_.ranks();
-    return ranks.together([&] {
-      std::vector<Change> of = changes(changed, held, sharing_, *numbering_, ranks.count());
-      workers_.tell(Task::set);
-      for (int r = 1; r < ranks.count(); ++r) send(ranks, r, of[r]);
-      return cycle_->set(of[0]);
-    });
+    std::vector<Change> of = changes(changed, held, sharing_, *numbering_, ranks.count());
+    return workers_.run(Task::set, [&](int r) { send(ranks, r, of[r]); }, [&] { return cycle_->set(of[0]); });
   }
 
   algebra::Vector solve(const algebra::Vector& b, double tolerance, algebra::Vector* left) override {
@@ -93,13 +88,9 @@ class PetscSolver final : public algebra::SpdSolver {
   bool interpolate(const algebra::Field& coarse, algebra::Field& fine) const override {
     RankVectors *from = coarser_numbering_ ? place_of(coarse, coarser_numbering_) : nullptr, *to = place_of(fine, numbering_);
     if (!from || !to) return false;
-    const std::lock_guard lock(only_one());
-    const Ranks& ranks = workers_.ranks();
-    ranks.together([&] {
-      workers_.tell(Task::interpolate);
-      for (int r = 1; r < ranks.count(); ++r) ranks.send(r, std::vector<int>{from->number(), coarse.number(), to->number(), fine.number()});
-      cycle_->interpolate(from->own()[coarse.number()], to->own()[fine.number()]);
-    });
+    const std::vector<int> which{from->number(), coarse.number(), to->number(), fine.number()};
+    workers_.run(Task::interpolate, [&](int r) { workers_.ranks().send(r, which); },
+                 [&] { cycle_->interpolate(from->own()[coarse.number()], to->own()[fine.number()]); });
     return true;
   }
 
@@ -146,14 +137,10 @@ class PetscSolver final : public algebra::SpdSolver {
     return own;
   }
   Solved solve_in(RankVectors& room, const algebra::Field& b, double tolerance, algebra::Field& x, algebra::Field& left) {
-    const std::lock_guard lock(only_one());
-    const Ranks& ranks = workers_.ranks();
-    const Cycle::Solution own = ranks.together([&] {
-      workers_.tell(Task::solve);
-      for (int r = 1; r < ranks.count(); ++r)
-        ranks.send(r, std::vector<int>{room.number(), b.number(), x.number(), left.number()}), ranks.send(r, std::vector<double>{tolerance, most_});
-      return cycle_->solve(room.own()[b.number()], tolerance, most_, &monitor_, room.own()[x.number()], room.own()[left.number()]);
-    });
+    const std::vector<int> which{room.number(), b.number(), x.number(), left.number()};
+    const Cycle::Solution own = workers_.run(
+        Task::solve, [&](int r) { workers_.ranks().send(r, which), workers_.ranks().send(r, std::vector<double>{tolerance, most_}); },
+        [&] { return cycle_->solve(room.own()[b.number()], tolerance, most_, &monitor_, room.own()[x.number()], room.own()[left.number()]); });
     iterations_ += own.iterations;
     if (own.thrown) std::rethrow_exception(own.thrown);
     return {own.found, true};

@@ -72,14 +72,11 @@ algebra::StoredMatrix lower_triangle(int size, const Each& each) {
 }  // namespace
 
 std::unique_ptr<Slice> receive_rest(const Ranks& ranks, HalfRows rows, AllOwnFunctions functions, OwnLoad load) {
-  std::vector<int> idle;
-  ranks.receive(0, idle);
-  return told_slice(ranks, std::move(rows), idle, std::move(functions), std::move(load));
+  return told_slice(ranks, std::move(rows), ranks.received<int>(0), std::move(functions), std::move(load));
 }
 
 std::unique_ptr<Slice> receive_slice(const Ranks& ranks, const ShareMakers& makers) {
-  std::vector<int> sizes;
-  ranks.receive(0, sizes);
+  const std::vector<int> sizes = ranks.received<int>(0);
   OwnNumbers own{sizes[0], sizes[1], sizes[2]};
   ranks.receive(0, own.slot), ranks.receive(0, own.idle);
   Lists lists = receive_lists(ranks, 0);
@@ -90,11 +87,7 @@ std::unique_ptr<Slice> receive_slice(const Ranks& ranks, const ShareMakers& make
   return told_slice(ranks, std::move(rows), own.idle, std::move(functions));
 }
 
-void tell_some(const Ranks& ranks, const Slice& slice) {
-  std::vector<int> rows;
-  ranks.receive(0, rows);
-  send(ranks, 0, slice.some(rows));
-}
+void tell_some(const Ranks& ranks, const Slice& slice) { send(ranks, 0, slice.some(ranks.received<int>(0))); }
 
 RankSlices::RankSlices(Workers workers, const Shared& shared)
     : RankSlices(workers, Numbering(shared.coupling, workers.ranks().count())) {
@@ -188,13 +181,8 @@ void RankSlices::take_diagonal() {
 std::shared_ptr<algebra::Vectors> RankSlices::vectors(const std::vector<int>& watched) const { return std::make_shared<RankVectors>(workers_, numbering_, watched); }
 
 void RankSlices::multiply(Slice::Product how, RankVectors& v, const Slice::Factors& of) const {
-  const std::lock_guard lock(only_one());
-  const Ranks& ranks = workers_.ranks();
-  ranks.together([&] {
-    workers_.tell(Task::multiply);
-    for (int r = 1; r < ranks.count(); ++r) ranks.send(r, std::vector<int>{v.number(), static_cast<int>(how), of.x, of.x_low, of.y});
-    slice_->multiply(how, v.own(), of);
-  });
+  workers_.run(Task::multiply, [&](int r) { workers_.ranks().send(r, std::vector<int>{v.number(), static_cast<int>(how), of.x, of.x_low, of.y}); },
+               [&] { slice_->multiply(how, v.own(), of); });
 }
 
 bool RankSlices::holds(const algebra::Vectors& vectors) const {

@@ -30,12 +30,7 @@ int size_of(const Numbering& numbering, int rank) { return numbering.first(0)[ra
 RankVectors::RankVectors(const Workers& workers, std::shared_ptr<const Numbering> numbering, const std::vector<int>& watched)
     : Vectors(static_cast<int>(numbering->slot().size()), watched), workers_(workers.next()), numbering_(std::move(numbering)),
       own_(size_of(*numbering_, 0), workers.ranks().alone()) {
-  const std::lock_guard lock(only_one());
-  const Ranks& ranks = workers_.ranks();
-  ranks.together([&] {
-    workers_.tell(Task::vectors);
-    for (int r = 1; r < ranks.count(); ++r) ranks.send(r, std::vector<int>{size_of(*numbering_, r)});
-  });
+  workers_.run(Task::vectors, [&](int r) { workers_.ranks().send(r, std::vector<int>{size_of(*numbering_, r)}); }, [] {});
 }
 
 RankVectors::~RankVectors() {
@@ -44,37 +39,20 @@ RankVectors::~RankVectors() {
 }
 
 VectorParts receive_vectors(const Ranks& ranks) {
-  std::vector<int> size;
-  ranks.receive(0, size);
-  return {size[0], false};
+  return {ranks.received<int>(0)[0], false};
 }
 
 double RankVectors::run(const VectorOrder& order) {
-  const std::lock_guard lock(only_one());
   const Ranks& ranks = workers_.ranks();
-  return ranks.together([&] {
-    workers_.tell(Task::order);
-    for (int r = 1; r < ranks.count(); ++r)
-      ranks.send(r, std::vector<int>{static_cast<int>(order.op), order.a, order.b, order.c, order.d}), ranks.send(r, std::vector<double>{order.factor});
-    return run_together(ranks, order, own_);
-  });
+  const std::vector<int> words{static_cast<int>(order.op), order.a, order.b, order.c, order.d};
+  return workers_.run(Task::order, [&](int r) { ranks.send(r, words), ranks.send(r, std::vector<double>{order.factor}); },
+                      [&] { return run_together(ranks, order, own_); });
 }
 
 void run_order(const Ranks& ranks, VectorParts& vectors) {
-  std::vector<int> words;
-  std::vector<double> factor;
-  ranks.receive(0, words), ranks.receive(0, factor);
+  const std::vector<int> words = ranks.received<int>(0);
+  const std::vector<double> factor = ranks.received<double>(0);
   run_together(ranks, {static_cast<VectorOrder::Op>(words[0]), words[1], words[2], words[3], words[4], factor[0]}, vectors);
-}
-
-void RankVectors::tell(Task task, int v) const {
-  workers_.tell(task);
-  for (int r = 1; r < workers_.ranks().count(); ++r) workers_.ranks().send(r, std::vector<int>{v});
-}
-
-void RankVectors::tell(Task task, int v, const ByRank& some) const {
-  tell(task, v);
-  for (int r = 1; r < workers_.ranks().count(); ++r) workers_.ranks().send(r, some.rows[r]);
 }
 
 RankVectors::ByRank RankVectors::by_rank(const std::vector<int>& unknowns) const {
@@ -99,10 +77,8 @@ void exchange_numbers(const Ranks& ranks, Task task, VectorParts& vectors) {
 }
 
 Vector RankVectors::get(int v) {
-  const std::lock_guard lock(only_one());
   const Ranks& ranks = workers_.ranks();
-  return ranks.together([&] {
-    tell(Task::get, v);
+  return workers_.run(Task::get, [&](int r) { ranks.send(r, std::vector<int>{v}); }, [&] {
     Vector all(static_cast<Eigen::Index>(numbering_->slot().size()));
     numbering_->put(0, own_[v], all);
     std::vector<double> part;
@@ -112,22 +88,15 @@ Vector RankVectors::get(int v) {
 }
 
 void RankVectors::put(int v, const Vector& numbers) {
-  const std::lock_guard lock(only_one());
   const Ranks& ranks = workers_.ranks();
   const auto part = [&](int rank) { return numbering_->part(rank, [&](int i) { return numbers[i]; }); };
-  ranks.together([&] {
-    tell(Task::put, v);
-    for (int r = 1; r < ranks.count(); ++r) ranks.send(r, part(r));
-    own_[v] = part(0);
-  });
+  workers_.run(Task::put, [&](int r) { ranks.send(r, std::vector<int>{v}), ranks.send(r, part(r)); }, [&] { own_[v] = part(0); });
 }
 
 Vector RankVectors::some(int v, const std::vector<int>& unknowns) {
-  const std::lock_guard lock(only_one());
   const Ranks& ranks = workers_.ranks();
   const ByRank of = by_rank(unknowns);
-  return ranks.together([&] {
-    tell(Task::get_some, v, of);
+  return workers_.run(Task::get_some, [&](int r) { ranks.send(r, std::vector<int>{v}), ranks.send(r, of.rows[r]); }, [&] {
     Vector all(std::ssize(unknowns));
     std::vector<double> part = own_.some(v, of.rows[0]);
     for (int r = 0; r < ranks.count(); ++r) {
@@ -139,7 +108,6 @@ Vector RankVectors::some(int v, const std::vector<int>& unknowns) {
 }
 
 void RankVectors::set_some(int v, const std::vector<int>& unknowns, const Vector& numbers) {
-  const std::lock_guard lock(only_one());
   const Ranks& ranks = workers_.ranks();
   const ByRank of = by_rank(unknowns);
   const auto part = [&](int rank) {
@@ -147,11 +115,8 @@ void RankVectors::set_some(int v, const std::vector<int>& unknowns, const Vector
     for (const int k : of.places[rank]) own.push_back(numbers[k]);
     return own;
   };
-  ranks.together([&] {
-    tell(Task::set_some, v, of);
-    for (int r = 1; r < ranks.count(); ++r) ranks.send(r, part(r));
-    own_.set_some(v, of.rows[0], part(0));
-  });
+  workers_.run(Task::set_some, [&](int r) { ranks.send(r, std::vector<int>{v}), ranks.send(r, of.rows[r]), ranks.send(r, part(r)); },
+               [&] { own_.set_some(v, of.rows[0], part(0)); });
 }
 
 }  // namespace dotyk::multigrid

@@ -37,9 +37,6 @@ class RankVectors final : public algebra::Vectors {
     std::vector<std::vector<int>> rows;    ///< in the rank's part, counted from its first
   };
   ByRank by_rank(const std::vector<int>& unknowns) const;
-  /// Tells the other ranks to put numbers into v, or to send what they have of it.
-  void tell(Task task, int v) const;
-  void tell(Task task, int v, const ByRank& some) const;
 
   Workers workers_;
   std::shared_ptr<const Numbering> numbering_;

@@ -107,8 +107,7 @@ void send(const Ranks& ranks, int to, const VisitOrder& order) {
 }
 
 VisitOrder receive_order(const Ranks& ranks) {
-  std::vector<int> numbers;
-  ranks.receive(0, numbers);
+  const std::vector<int> numbers = ranks.received<int>(0);
   VisitOrder order{numbers[0], numbers[1], numbers[2], numbers[3]};
   ranks.receive(0, order.rows), ranks.receive(0, order.values), ranks.receive(0, order.nodes);
   order.said = receive_lists(ranks, 0);
@@ -136,8 +135,7 @@ std::vector<int> Refinement::first() const {
 }
 
 std::unique_ptr<Slice> receive_refined_slice(const Ranks& ranks, const ShareMakers& makers) {
-  std::vector<int> sizes;
-  ranks.receive(0, sizes);
+  const std::vector<int> sizes = ranks.received<int>(0);
   const int times = sizes[0], dimension = sizes[1];
   const bool loaded = sizes[2] != 0;
   Given given = receive_given(ranks);

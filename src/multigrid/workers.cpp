@@ -99,9 +99,7 @@ std::vector<int> next_task() {
   int there = 0;
   for (int wait = kShortest; MPI_Iprobe(0, MPI_ANY_TAG, world().comm(), &there, MPI_STATUS_IGNORE), !there; wait = std::min(kLongest, wait + wait / 50 + 1))
     require_room_for_messages(), usleep(static_cast<useconds_t>(wait));
-  std::vector<int> task;
-  world().receive(0, task);
-  return task;
+  return world().received<int>(0);
 }
 
 using Slices = std::map<int, std::unique_ptr<Slice>>;
@@ -118,23 +116,19 @@ std::unique_ptr<Cycle> make(Slices& slices) {
 using Vectors = std::map<int, algebra::VectorParts>;
 
 void solve(Cycle& cycle, Vectors& vectors) {
-  std::vector<int> which;
-  std::vector<double> ending;
-  world().receive(0, which);
-  world().receive(0, ending);
+  const std::vector<int> which = world().received<int>(0);
+  const std::vector<double> ending = world().received<double>(0);
   algebra::VectorParts& own = vectors.at(which[0]);
   cycle.solve(own[which[1]], ending[0], ending[1], nullptr, own[which[2]], own[which[3]]);
 }
 
 void interpolate(Cycle& cycle, Vectors& vectors) {
-  std::vector<int> which;
-  world().receive(0, which);
+  const std::vector<int> which = world().received<int>(0);
   cycle.interpolate(vectors.at(which[0])[which[1]], vectors.at(which[2])[which[3]]);
 }
 
 void multiply(Slice& slice, Vectors& vectors) {
-  std::vector<int> which;
-  world().receive(0, which);
+  const std::vector<int> which = world().received<int>(0);
   slice.multiply(static_cast<Slice::Product>(which[1]), vectors.at(which[0]), {which[2], which[3], which[4]});
 }
 

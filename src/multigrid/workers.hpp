@@ -1,8 +1,10 @@
 // The processes that wait for rank 0's solvers, and what they do for them.
 #pragma once
 
+#include <mutex>
 #include <string>
 
+#include "multigrid/processes/petsc_session.hpp"
 #include "multigrid/processes/ranks.hpp"
 #include "multigrid/slices.hpp"
 
@@ -19,6 +21,17 @@ class Workers {
   void tell(Task task, int rank) const;  ///< the same to one rank
   Workers next() const;                  ///< the same ranks, for another solver, other slices or vectors
   int number() const { return number_; }  ///< by which the ranks know these, from 1
+  /// Tells the task, sends each other rank the data that send(rank) sends, and does rank 0's part, whose result it returns. No other thread has work of
+  /// the ranks meanwhile.
+  template <class Send, class Own>
+  auto run(Task task, const Send& send, const Own& own) const {
+    const std::lock_guard lock(only_one());
+    return ranks_.together([&] {
+      tell(task);
+      for (int r = 1; r < ranks_.count(); ++r) send(r);
+      return own();
+    });
+  }
   void made() const;  ///< the solver, or the slices, live, until they tell `drop` or `drop_slice`; vectors are not counted, because they hold nothing of PETSc's
 
  private:

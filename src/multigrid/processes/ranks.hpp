@@ -48,6 +48,12 @@ class Ranks {
   /// Takes what was sent, in the order in which it was.
   void receive(int from, std::vector<int>& numbers) const;
   void receive(int from, std::vector<double>& numbers) const;
+  template <class Number>
+  std::vector<Number> received(int from) const {
+    std::vector<Number> numbers;
+    receive(from, numbers);
+    return numbers;
+  }
 
   /// Ends all of them with one message and status 1.
   [[noreturn]] void abort(const std::string& reason) const;

@@ -30,8 +30,7 @@ void send(const Ranks& ranks, int to, const AllOwnFunctions& functions) {
 }
 
 AllOwnFunctions receive_own_functions(const Ranks& ranks, int from) {
-  std::vector<int> count;
-  ranks.receive(from, count);
+  const std::vector<int> count = ranks.received<int>(from);
   auto all = std::make_shared<std::vector<OwnFunctions>>(static_cast<std::size_t>(count[0]));
   for (OwnFunctions& own : *all) ranks.receive(from, own.component), ranks.receive(from, own.starts), ranks.receive(from, own.means);
   return all;

@@ -42,8 +42,7 @@ void send(const Ranks& ranks, int to, const Lists& lists) {
 }
 
 Lists receive_lists(const Ranks& ranks, int from) {
-  std::vector<int> sizes;
-  ranks.receive(from, sizes);
+  const std::vector<int> sizes = ranks.received<int>(from);
   Lists lists;
   lists.whole.resize(static_cast<std::size_t>(sizes[0])), lists.real.resize(static_cast<std::size_t>(sizes[1]));
   for (auto& list : lists.whole) ranks.receive(from, list);
