@@ -9,7 +9,6 @@
 #include "algebra/direct/blas_threads.hpp"
 #include "base/open_library.hpp"
 #include "multigrid/multigrid.hpp"
-#include "multigrid/start_ranks.hpp"
 
 namespace dotyk::multigrid {
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "plate/element/space.hpp"
+#include "plate/element/element.hpp"
 
 namespace dotyk::plate {
 

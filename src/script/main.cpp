@@ -24,7 +24,7 @@
 
 #include "elasticity/share.hpp"
 #include "figure/compose/compose.hpp"
-#include "multigrid/start_ranks.hpp"
+#include "multigrid/multigrid.hpp"
 #include "scene/result/inner_cells.hpp"
 #include "script/interpreter.hpp"
 #include "script/prompt/interrupt.hpp"

@@ -10,7 +10,7 @@
 namespace dotyk::figure {
 namespace {
 
-bool finite(Point p) { return std::isfinite(p.x) && std::isfinite(p.y); }
+bool is_finite(Point p) { return std::isfinite(p.x) && std::isfinite(p.y); }
 
 std::vector<Point> moved(std::span<const Point> points, Point by) {
   std::vector<Point> out;
@@ -100,7 +100,7 @@ std::optional<Index> find_index(const std::string& text, std::size_t from) {
 }  // namespace
 
 void Canvas::convex(std::span<const Point> corners, Colour colour, double opacity) {
-  if (!std::ranges::all_of(corners, finite)) return;
+  if (!std::ranges::all_of(corners, is_finite)) return;
   const bool inside = !clipped_ || std::ranges::all_of(corners, [&](Point p) { return clip_.holds(p); });
   std::vector<Point> rest(corners.begin(), corners.end());
   if (!inside) rest = cropped(std::move(rest), clip_);
@@ -112,12 +112,12 @@ void Canvas::box(const Box& b, Colour colour, double opacity) { convex(b.corners
 void Canvas::outline(const Box& b, double width, Colour colour) { polyline(b.corners(), width, colour, {}, true); }
 
 void Canvas::line(Point p, Point q, double width, Colour colour, double opacity) {
-  if (!finite(p) || !finite(q) || (clipped_ && !crop(p, q, clip_)) || !(length(q - p) > 0)) return;
+  if (!is_finite(p) || !is_finite(q) || (clipped_ && !crop(p, q, clip_)) || !(length(q - p) > 0)) return;
   add({Mark::Kind::line, {p + origin_, q + origin_}, colour, opacity, width});
 }
 
 void Canvas::polyline(std::span<const Point> points, double width, Colour colour, std::span<const double> dash, bool closed) {
-  if (!std::ranges::all_of(points, finite)) return;
+  if (!std::ranges::all_of(points, is_finite)) return;
   // Points closer than a quarter of a pixel do not show.
   std::vector<Point> path;
   for (const Point& p : points)
@@ -133,7 +133,7 @@ void Canvas::polyline(std::span<const Point> points, double width, Colour colour
 }
 
 void Canvas::disc(Point centre, double radius, Colour colour) {
-  if (!finite(centre)) return;
+  if (!is_finite(centre)) return;
   if (!clipped_ || clip_.holds(centre, -radius)) return add({Mark::Kind::disc, {centre + origin_}, colour, 1, radius});
   std::vector<Point> corners;
   constexpr int kCorners = 64;

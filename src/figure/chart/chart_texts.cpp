@@ -6,7 +6,7 @@
 namespace dotyk::figure {
 namespace {
 
-constexpr double between = 0.5;  // em, from a name to the next
+constexpr double between_names = 0.5;  // em, from a name to the next
 
 bool whole(const FittedText& text, const std::string& name) {
   std::string all;
@@ -125,7 +125,7 @@ void check_inside(const ChartNote& note, const Axes& axes) {
 }  // namespace
 
 CategoryNames::CategoryNames(const std::vector<std::string>& names, double em, double spacing) {
-  const double room = spacing - between * em;
+  const double room = spacing - between_names * em;
   double size = em;
   for (const std::string& name : names) {
     names_.push_back(fitted(name, em, room));

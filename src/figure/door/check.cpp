@@ -1,4 +1,3 @@
-#include "figure/door/checks.hpp"
 
 #include <cstdio>
 

@@ -1,7 +1,6 @@
 #include <tuple>
 
 #include "base/error.hpp"
-#include "figure/door/checks.hpp"
 #include "figure/door/drawing.hpp"
 
 namespace dotyk::figure {

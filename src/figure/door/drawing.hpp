@@ -1,8 +1,13 @@
 // What passes the door of the drawing library.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <stdexcept>
 #include <variant>
 
+#include "base/text.hpp"
 #include "figure/door/marks.hpp"
 #include "figure/door/picture.hpp"
 #include "figure/page/page_picture.hpp"
@@ -42,5 +47,19 @@ std::vector<DataMark> read(const PagePicture& picture);
 std::vector<DataMark> read(const PlatePicture& picture);
 std::vector<DataMark> read(const ChartPicture& picture);
 inline void render(const Reading& reading) { std::visit([&](const auto* picture) { *reading.marks = read(*picture); }, reading.of); }
+
+template <class... Parts>
+void require(bool holds, const Parts&... message) {
+  if (!holds) throw std::runtime_error(text(message...));
+}
+
+inline bool finite(double value) { return std::isfinite(value); }
+inline bool finite(std::span<const double> values) { return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); }); }
+template <class First, class... Rest>
+bool finite(const First& first, const Rest&... rest) requires(sizeof...(Rest) > 0) { return finite(first) && (finite(rest) && ...); }
+
+// Of every text that is drawn; `key` is what scripts call it.
+void check_text(const std::string& key, const std::string& words);
+void check_sheet(const Sheet& sheet);
 
 }  // namespace dotyk::figure

@@ -12,7 +12,6 @@
 #include <string>
 
 #include "multigrid/multigrid.hpp"
-#include "multigrid/start_ranks.hpp"
 
 namespace dotyk::multigrid {
 

@@ -2,12 +2,111 @@
 
 #include <cmath>
 
+#include "base/error.hpp"
 #include "base/text.hpp"
+#include "contact/contact_row.hpp"
 
 namespace dotyk::scene {
+namespace {
 
 using mesh::Point;
 using mesh::dot;
+using problem::SupportLaw;
+using Kind = SupportLaw::Kind;
+
+/// Rows of one LawSupport, as they are made.
+class SupportRowMaker {
+ public:
+  SupportRowMaker(int body, const LawSupport& support, RowBuilder& builder, Model& model)
+      : body_(body), on_(model.bodies[body]), support_(support), builder_(builder), model_(model),
+        rows_(support.nodes.size()) {}
+
+  std::vector<SupportRows> operator()() {
+    if (problem::row_law(support_.normal)) normal();
+    if (problem::rubs(support_.tangential.kind))
+      friction();
+    else if (problem::row_law(support_.tangential))
+      tangential();
+    return std::move(rows_);
+  }
+
+ private:
+  std::string name(const char* direction) const {
+    return text(direction, " support of '", on_.name, "' ", support_.part.name);
+  }
+
+  void normal() {
+    const SupportLaw& law = support_.normal;
+    builder_.rows.open_group(name("normal"), law);
+    for (std::size_t k = 0; k < rows_.size(); ++k) {
+      const contact::NodeSide& side = support_.nodes[k];
+      rows_[k].normal = add(side, side.normal, law, law.kind == Kind::prescribed ? -law.value : 0, support_.breaks(k) ? 0 : side.weight);
+    }
+  }
+
+  void tangential() {
+    const SupportLaw& law = support_.tangential;
+    builder_.rows.open_group(name("tangential"), law);
+    for (std::size_t k = 0; k < rows_.size(); ++k)
+      for (const Point& t : contact::tangents(support_.nodes[k].normal, on_.dimension())) {
+        const int row = add(support_.nodes[k], t, law, law.kind == Kind::prescribed ? law.value : 0, support_.nodes[k].weight);
+        if (row >= 0) rows_[k].add(row, t);
+      }
+  }
+
+  /// Points of one and of two free tangents apart: a group's points have as many rows each.
+  void friction() {
+    const bool coulomb = support_.tangential.kind == Kind::coulomb;
+    for (int components = 1; components < on_.dimension(); ++components) {
+      const int first = builder_.rows.open_friction();
+      std::vector<double> bounds;
+      std::vector<int> normal;
+      for (std::size_t k = 0; k < rows_.size(); ++k) {
+        const contact::NodeSide& side = support_.nodes[k];
+        const std::vector<Point> free = free_tangents(side);
+        const double value = support_.friction_value.empty() ? support_.tangential.value : support_.friction_value[k];
+        if (static_cast<int>(free.size()) != components || value == 0 || (coulomb && rows_[k].normal < 0)) continue;
+        for (const Point& t : free) rows_[k].add(add(side, t, support_.tangential, 0, side.weight), t);
+        bounds.push_back(coulomb ? value : value * side.weight);
+        normal.push_back(coulomb ? rows_[k].normal : -1);
+      }
+      if (bounds.empty()) continue;
+      auto law = coulomb ? problem::coulomb(std::move(bounds)) : problem::tresca(std::move(bounds));
+      model_.problem.friction.push_back({name("tangential"), std::move(law), first, components, std::move(normal)});
+    }
+  }
+
+  std::vector<Point> free_tangents(const contact::NodeSide& side) const {
+    std::vector<Point> free = contact::tangents(side.normal, on_.dimension());
+    std::erase_if(free, [&](const Point& t) { return !moves(side, t); });
+    return free;
+  }
+
+  /// The row direction·u = gap, or -1 where nothing moves.
+  int add(const contact::NodeSide& side, const Point& direction, const SupportLaw& law, double gap, double share) {
+    if (moves(side, direction)) return builder_.add(body_, side.own, direction, gap, share);
+    if (!unknown_along(model_.numbering[body_], side.own, direction, on_.dimension())) builder_.add(body_, side.own, direction, gap);  // no row; gap changes
+    const double rounding = 1e-12 * on_.mesh->size();
+    if (law.kind == Kind::prescribed ? std::abs(gap) > rounding : law.kind == Kind::signorini && gap < -rounding)
+      throw InputError(text("contradictory supports on '", on_.name, "': at the node ",
+                            point_text(on_.mesh->node(side.node), on_.dimension()), " the ", problem::support_name(law.kind), " law of part '", support_.part.name,
+                            "' and the displacement that other supports hold differ by ", std::abs(gap)));
+    return -1;
+  }
+
+  bool moves(const contact::NodeSide& side, const Point& direction) const {
+    return scene::moves(on_, model_.numbering[body_], side, direction);
+  }
+
+  int body_;
+  const Body& on_;
+  const LawSupport& support_;
+  RowBuilder& builder_;
+  Model& model_;
+  std::vector<SupportRows> rows_;
+};
+
+}  // namespace
 
 int RowBuilder::add(int body, const std::vector<contact::NodeWeight>& mean, const Point& direction, double& gap, double share) {
   return add(body, -1, {{mean, {}, direction}}, gap, share);
@@ -71,6 +170,41 @@ void RowBuilder::collect(int body, int node, const Point& direction, double sign
     model_.held.push_back({rows.count(), body, at, sign * direction[i]});
     gap -= sign * direction[i] * numbering.value(at);
   }
+}
+
+void add_support_rows(int body, RowBuilder& builder, Model& model) {
+  model.support_row.emplace_back();
+  for (const LawSupport& support : model.bodies[body].laws)
+    model.support_row.back().push_back(SupportRowMaker(body, support, builder, model)());
+}
+
+Point law_load(const LawSupport& support, const contact::NodeSide& side, int dimension) {
+  Point force{0, 0, 0};
+  const Point t = contact::tangents(side.normal, dimension).front();
+  for (int i = 0; i < dimension; ++i) {
+    if (support.normal.kind == Kind::load) force[i] -= support.normal.value * side.weight * side.normal[i];
+    if (support.tangential.kind == Kind::load) force[i] += support.tangential.value * side.weight * t[i];
+  }
+  return force;
+}
+
+void add_law_loads(Body& body) {
+  const int dim = body.dimension();
+  for (const LawSupport& support : body.laws)
+    for (const contact::NodeSide& side : support.nodes) {
+      const Point force = law_load(support, side, dim);
+      if (force == Point{0, 0, 0}) continue;
+      for (const contact::NodeWeight& own : side.own)
+        for (int i = 0; i < dim; ++i) nodal_loads(body)[static_cast<std::size_t>(own.node) * dim + i] += own.weight * force[i];
+    }
+}
+
+double broken_energy(const Body& body) {
+  double energy = 0;
+  for (const LawSupport& s : body.laws)
+    for (std::size_t k = 0; k < s.nodes.size(); ++k)
+      if (s.breaks(k) && s.normal.value > 0) energy += 0.5 * s.normal.limit * s.normal.limit / s.normal.value * s.nodes[k].weight;
+  return energy;
 }
 
 }  // namespace dotyk::scene

@@ -7,7 +7,7 @@
 #include "base/listed.hpp"
 #include "elasticity/refined.hpp"
 #include "mesh/decomposition.hpp"
-#include "multigrid/start_ranks.hpp"
+#include "multigrid/multigrid.hpp"
 
 namespace dotyk::scene {
 

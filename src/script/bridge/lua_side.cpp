@@ -11,7 +11,7 @@
 #include <stdexcept>
 
 #include "base/whole_file.hpp"
-#include "figure/door/checks.hpp"
+#include "figure/door/drawing.hpp"
 #include "script/bridge/library.hpp"
 #include "script/prompt/interrupt.hpp"
 #include "script/guard/manifest.hpp"

@@ -88,9 +88,8 @@ std::vector<std::string> string_keys(lua_State* L, int index) {
   if (!lua_istable(L, index)) return names;
   index = lua_absindex(L, index);
   luaL_checkstack(L, 4, nullptr);
-  for (lua_pushnil(L); lua_next(L, index); lua_pop(L, 1)) {
+  for (lua_pushnil(L); lua_next(L, index); lua_pop(L, 1))
     if (lua_type(L, -2) == LUA_TSTRING) names.emplace_back(lua_tostring(L, -2));
-  }
   std::sort(names.begin(), names.end());
   return names;
 }

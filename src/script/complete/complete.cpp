@@ -67,11 +67,9 @@ Meaning advance(lua_State* L, const Library& library, const Meaning& from, const
 // What a table here is to be: the key itself, or the one of its kinds that is a table; its own keys rather than its items.
 const Key* as_table(const Key* key) {
   if (!key || key->kind != Kind::either) return key;
-  for (const auto kind : {Kind::table, Kind::list}) {
-    for (const auto& one : key->keys) {
+  for (const auto kind : {Kind::table, Kind::list})
+    for (const auto& one : key->keys)
       if (one.kind == kind) return &one;
-    }
-  }
   return nullptr;
 }
 
@@ -79,16 +77,14 @@ const Key* as_table(const Key* key) {
 const Key* table_argument(const Descriptor& callable, std::size_t before) {
   const auto& all = callable.arguments;
   if (before < all.size() && all[before].kind == Kind::table) return &all[before];
-  for (const auto& argument : all) {
+  for (const auto& argument : all)
     if (argument.kind == Kind::table) return &argument;
-  }
   return nullptr;
 }
 
 const Key* find_key(const Key& table, const std::string& name) {
-  for (const auto& key : table.keys) {
+  for (const auto& key : table.keys)
     if (key.name == name && !name.empty()) return &key;
-  }
   return nullptr;
 }
 
@@ -169,9 +165,8 @@ std::vector<std::string> members(lua_State* L, const Library& library, const Cha
   const auto meaning = resolve(L, library, chain);
   const bool methods = joint == Step::method;
   if (meaning.type) {
-    for (const auto& field : meaning.type->fields) {
+    for (const auto& field : meaning.type->fields)
       if (!methods) words.push_back(field.name);
-    }
     for (const auto& method : meaning.type->methods) {
       if (methods) words.push_back(method.short_name());
     }
@@ -241,9 +236,8 @@ bool is_of(const Key& key, const std::string& type) {
 // the methods of what the variables hold.
 std::vector<std::string> objects(lua_State* L, const Library& library, const Key& key) {
   std::vector<std::string> held, makers;
-  for (const auto& one : library.functions()) {
+  for (const auto& one : library.functions())
     if (is_of(key, one.returns)) makers.push_back(one.name);
-  }
   lua_pushglobaltable(L);
   for (const auto& name : string_keys(L, -1)) {
     push(L, name);
@@ -252,9 +246,8 @@ std::vector<std::string> objects(lua_State* L, const Library& library, const Key
     lua_pop(L, 1);
     if (!type || name == "_" || !is_name(name)) continue;
     if (is_of(key, type->name)) held.push_back(name);
-    for (const auto& method : type->methods) {
+    for (const auto& method : type->methods)
       if (is_of(key, method.returns)) makers.push_back(name + ":" + method.short_name());
-    }
   }
   return held.empty() ? makers : held;
 }

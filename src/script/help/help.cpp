@@ -161,9 +161,8 @@ std::string help_text(const Library& library, const Type& type) {
   if (!type.methods.empty()) out += "\n  Methods:\n";
   for (const auto& method : type.methods) out += "  " + summary_line(method.name, method.help);
   std::string makers;
-  for (const auto& one : library.functions()) {
+  for (const auto& one : library.functions())
     if (one.returns == type.name) makers += (makers.empty() ? "" : ", ") + one.name;
-  }
   return makers.empty() ? out : out + "\n  Made by " + makers + ".\n";
 }
 
@@ -174,9 +173,8 @@ std::string help_text(const Library& library, const Module& module) {
     if (dot != std::string::npos && one.name.substr(0, dot) == module.name)
       out += summary_line(one.name, one.help);
   }
-  for (const auto& inner : library.modules()) {
+  for (const auto& inner : library.modules())
     if (inner.name.rfind(module.name + ".", 0) == 0) out += summary_line(inner.name, inner.help);
-  }
   return out;
 }
 

@@ -1,4 +1,4 @@
-#include "multigrid/start_ranks.hpp"
+#include "multigrid/multigrid.hpp"
 #include "script/bind/bind.hpp"
 #include "script/help/nearest.hpp"
 #include "script/bind/scene/space.hpp"
