@@ -1,4 +1,3 @@
-
 #include <cstdio>
 
 #include "base/whole_file.hpp"
