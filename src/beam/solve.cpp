@@ -1,6 +1,7 @@
 #include "beam/solve.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "base/error.hpp"
@@ -19,6 +20,18 @@ constexpr int kMostBreaking = 12;
 /// The condensed problem knows deflections between near supports as differences of those of the whole beam: beyond so many rows PDAS works on the
 /// banded stiffness, which knows them from near by.
 constexpr int kMostCondensed = 16;
+/// The same where the beam is nearly_rigid().
+constexpr int kMostRigid = 200;
+
+/// Is no spring as stiff as the beam as a whole, a cell's stiffness over the cube of their number? What it bears is then known by its own yielding,
+/// while the banded stiffness, 12 EJ/h³ beside the spring's, hides it.
+bool nearly_rigid(const Model& model) {
+  const algebra::Vector stiffness = model.problem.row_stiffness() / std::pow(static_cast<double>(model.nodes.size()), 3);
+  return std::ranges::all_of(model.problem.scalar_rows(), [&](const problem::ScalarRow& row) {
+    const auto springs = row.law.springs(row.k);
+    return springs && std::max(springs->below, springs->above) <= stiffness[row.r];
+  });
+}
 
 /// Where the choice of broken supports is what the displacements say.
 bool consistent(const Beam& beam, const std::vector<Breaking>& which, const std::vector<Broken>& broken, const Solution& s) {
@@ -34,7 +47,9 @@ bool consistent(const Beam& beam, const std::vector<Breaking>& which, const std:
 }
 
 solver::Result run(const Model& model, const std::string& note, const solver::Method& method, Monitor& monitor) {
-  solver::Result result = solver::solve(model.problem, method, {}, monitor, model.problem.rows() <= kMostCondensed);
+  const int rows = model.problem.rows();
+  const bool condensed = rows <= kMostCondensed || (rows <= kMostRigid && nearly_rigid(model));
+  solver::Result result = solver::solve(model.problem, method, {}, monitor, condensed);
   if (result.converged && !balanced(model.problem, result.state.lambda)) {
     result.converged = false;
     result.reason = kUnbalanced;

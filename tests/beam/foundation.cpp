@@ -34,6 +34,23 @@ Beam loose(double length, int cells, const SupportLaw& law) {
   return b;
 }
 
+/// The greatest difference of the nodes' forces from those under a rigid beam, k share (a + b x)⁺ down, by Newton's method on a and b; relative to P.
+double off_rigid(const beam::Solution& s, double stiffness, double force, double at) {
+  const auto& x = s.model().nodes;
+  const int n = static_cast<int>(x.size());
+  const auto spring = [&](int i) { return stiffness * s.model().share(i); };
+  Eigen::Vector2d ab(force / (stiffness * s.beam().length), 0);
+  for (int k = 0; k < 50; ++k) {
+    Eigen::Matrix2d H = Eigen::Matrix2d::Zero();
+    for (int i = 0; i < n; ++i)
+      if (const Eigen::Vector2d one(1, x[i]); ab.dot(one) > 0) H += spring(i) * one * one.transpose();
+    ab = H.fullPivLu().solve(force * Eigen::Vector2d(1, at));
+  }
+  double worst = 0;
+  for (int i = 0; i < n; ++i) worst = std::max(worst, std::abs(s.foundation_force(i) - spring(i) * std::max(0.0, ab.dot(Eigen::Vector2d(1, x[i])))));
+  return worst / force;
+}
+
 /// Hetényi's beam of half length c on springs under a force P down in the middle: with t = c − x from the free end
 /// w = A cosh λt cos λt + B (cosh λt sin λt + sinh λt cos λt), w' = 0 in the middle, ∫k w = P/2. Downwards.
 struct Hetenyi {
@@ -221,4 +238,19 @@ TEST_CASE("foundations that cannot be are refused, with what they contradict") {
   Beam few = held;
   few.foundation.resize(3);
   CHECK_THROWS_WITH_AS(only(few), "its foundation has 3 laws for 33 nodes", InputError);
+}
+
+TEST_CASE("a beam far stiffer than its one-sided foundation stands on it as a rigid one does, 1.6e6 to 1.6e10 times as stiff as a node's spring") {
+  constexpr double length = 6, force = 300, stiffness = 1000;
+  for (const int cells : {60, 120})
+    for (const double EJ : {1e7, 1e8, 1e9, 1e10})
+      for (const double e : {0.4, 1.5, 2.5}) {
+        Beam b = test::beam_between(length, EJ, 0, kFree, kFree, kFree, kFree);
+        b.cells = cells, b.loads = {{length / 2 + e, -force, 0}};
+        found(b, {Kind::one_sided_elastic, stiffness});
+        const auto s = only(b);
+        INFO(EJ << ", " << cells << " cells, " << e << ": " << s->result().reason);
+        CHECK(s->result().converged);
+        CHECK(off_rigid(*s, stiffness, force, length / 2 + e) < 1e-7 + 1e3 / EJ);
+      }
 }

@@ -1,5 +1,6 @@
 #include "solver/active/set_iteration.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -86,6 +87,11 @@ SetIteration::SetIteration(const Problem& problem, const Pdas& settings, Monitor
   const double largest = rho.size() && rho.maxCoeff() > 0 ? rho.maxCoeff() : 1;
   for (int r = 0; r < rho.size(); ++r)
     if (!(rho[r] > 0)) rho[r] = largest, compliance_[r] = settings.rho / largest;
+  for (const auto& [law, k, r] : problem.scalar_rows())  // where there are branches to tell apart, law and bodies yield one after the other
+    if (const auto own = law.springs(k); own && !law.linear_stiffness(k) && std::max(own->below, own->above) > 0) {
+      const double yields = 1 / std::max(own->below, own->above);
+      compliance_[r] += yields, rho[r] /= 1 + rho[r] * yields;
+    }
   lambda = Vector::Zero(problem.rows());
   result.method = settings.reduced ? "pdas" : "pdas (held)";
   place_screws();
