@@ -28,7 +28,7 @@ class Conditions {
  public:
   Conditions(const Problem& problem, const State& state, double tolerance, bool springs_hold)
       : springs_hold_(springs_hold), x_(jumps(problem, state.u)), lambda_(state.lambda), small_(small_forces(problem, state.lambda, tolerance)),
-        compliance_(problem.row_compliance()),
+        stiffness_(problem.row_stiffness()),
         left_(10 * tolerance * greatest_force(problem, state.lambda)) {
     for (const RowGroup& group : problem.groups)
       for (int k = 0; k < group.count; ++k) add(*group.law, group.first + k, k);
@@ -50,7 +50,7 @@ class Conditions {
     }
     const Interval following = problem::following(law, k);
     // On a row that is open, or beyond its law's other end, a multiplier is what the method left.
-    const auto open = [&](double force, double gap) { return force <= small_[row] || (force <= left_ && compliance_[row] * force <= kBesideGap * gap); };
+    const auto open = [&](double force, double gap) { return force <= small_[row] || (force <= left_ && force <= kBesideGap * stiffness_[row] * gap); };
     if (open(lambda_[row] - low, following.low - x_[row]))
       limit(row, 1, following.low - x_[row]);
     else if (open(high - lambda_[row], x_[row] - following.high))
@@ -85,7 +85,7 @@ class Conditions {
   bool springs_hold_;
   Vector x_;
   const Vector& lambda_;
-  Vector small_, compliance_;  ///< by row: forces that are none; see Problem::row_compliance()
+  Vector small_, stiffness_;  ///< by row: forces that are none; see Problem::row_stiffness()
   double left_;                ///< what a method may leave of a force
   algebra::Triplets held_, limited_;
   int held_count_ = 0;

@@ -19,11 +19,6 @@ const double kHalf = std::sqrt(std::numeric_limits<double>::epsilon());
 
 double positive_or_one(double value) { return value > 0 && std::isfinite(value) ? value : 1; }
 
-/// Of rows that no unknown moves the stiffness is 0.
-Vector local_stiffness(const Problem& problem) {
-  return problem.row_compliance().unaryExpr([](double yields) { return yields > 0 ? 1 / yields : 0.0; });
-}
-
 /// By part the greatest |u − R R⁺u|, R each block's rigid motions.
 std::vector<double> deformation(const Problem& problem, const Parts& parts, const State& state, const Forces& forces) {
   const auto moves = [](const Block& block) { return block.kernel.cols() > 0; };
@@ -42,7 +37,7 @@ std::vector<double> deformation(const Problem& problem, const Parts& parts, cons
 }  // namespace
 
 Measure::Measure(const Problem& problem, Vector stiffness)
-    : parts_(problem::parts(problem)), stiffness_(stiffness.size() > 0 ? std::move(stiffness) : local_stiffness(problem)),
+    : parts_(problem::parts(problem)), stiffness_(stiffness.size() > 0 ? std::move(stiffness) : problem.row_stiffness()),
       gap_(problem.c.cwiseAbs()), load_(static_cast<std::size_t>(parts_.count), 0), at_rest_(load_), moved_(load_) {
   take_loads(problem);
   take_rows(problem);

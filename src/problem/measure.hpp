@@ -19,7 +19,7 @@ namespace dotyk::problem {
 /// state, or √ε ‖|K||u|‖, are then all that it can be measured by.
 class Measure {
  public:
-  /// `stiffness`: k by row, in force per displacement; without it that of Problem::row_compliance().
+  /// `stiffness`: k by row, in force per displacement; without it that of Problem::row_stiffness().
   explicit Measure(const Problem& problem, algebra::Vector stiffness = {});
   Measure(const Problem& problem, const State& state, const Forces& forces);
   Measure(const Problem& problem, const State& state) : Measure(problem, state, external_forces(problem, state)) {}

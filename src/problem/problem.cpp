@@ -50,24 +50,15 @@ std::vector<const RowGroup*> Problem::group_of_rows() const {
   return of;
 }
 
-namespace {
-
-/// Σ_j B_rj² term(K_jj), row by row.
-template <class Term>
-Vector over_diagonal(const Problem& problem, const Term& term) {
-  Vector sum = Vector::Zero(problem.rows());
-  for (int r = 0; r < problem.rows(); ++r)
-    for (SparseRows::InnerIterator it(problem.B, r); it; ++it) {
-      const Block& block = problem.blocks[problem.block_of(it.col())];
-      sum[r] += it.value() * it.value() * term(block.K.diagonal(static_cast<int>(it.col()) - block.first));
+Vector Problem::row_stiffness() const {
+  Vector compliance = Vector::Zero(rows());
+  for (int r = 0; r < rows(); ++r)
+    for (SparseRows::InnerIterator it(B, r); it; ++it) {
+      const Block& block = blocks[block_of(it.col())];
+      compliance[r] += it.value() * it.value() / block.K.diagonal(static_cast<int>(it.col()) - block.first);
     }
-  return sum;
+  return compliance.unaryExpr([](double yields) { return yields > 0 ? 1 / yields : 0.0; });
 }
-
-}  // namespace
-
-Vector Problem::row_stiffness() const { return over_diagonal(*this, [](double k) { return k; }); }
-Vector Problem::row_compliance() const { return over_diagonal(*this, [](double k) { return 1 / k; }); }
 
 SparseRows Problem::rows_of(const Block& block) const { return B.middleCols(block.first, block.size()); }
 

@@ -109,11 +109,9 @@ struct Problem {
   std::vector<FrictionPoint> friction_points() const;
   /// The group of every row.
   std::vector<const RowGroup*> group_of_rows() const;
-  /// Stiffness seen by each row: Σ_j B_rj² K_jj, in force per displacement. The unit of ρ.
+  /// Stiffness seen by each row, of the parts that it joins one after the other, at most: 1 / Σ_j B_rj²/K_jj, in force per displacement. Where a soft part touches
+  /// a stiff one it is the soft one's; 0 where no unknown moves the row. The unit of ρ.
   algebra::Vector row_stiffness() const;
-  /// What each row yields at least to a unit of its force, the parts that it joins one after the other: Σ_j B_rj² / K_jj. Where a soft part
-  /// touches a stiff one it is the soft one's.
-  algebra::Vector row_compliance() const;
   /// B's columns of one block, in the block's own numbering.
   algebra::SparseRows rows_of(const Block& block) const;
   algebra::Vector load() const;            ///< f of all blocks, without what the slices have: see whole_load()

@@ -138,19 +138,11 @@ do
   local cut <const> = S.multigrid{}:solve(scenes.cube(16, { friction = 0.3, refine = 2 }))
   check.that(cut.converged and cut.multigrid.newton <= 3, cut.multigrid.newton) -- four after ten sweeps
   check.that(one.converged and one.multigrid.newton == 1, one.multigrid.newton) -- two, not relaxed; of 24³ cells either way one
-  -- Not beside a body a thousand times stiffer, where sweeps near the rows balance what interpolation left within that body.
-  local apart <const> = S.multigrid{}:solve(scenes.blocks(16, { friction = 0.6, contrast = 1000 }))
-  check.that(apart.converged and apart.iterations <= 12 and not apart.reason:find("before,", 1, true), apart.reason)
-  -- A start on the coarser mesh that leads nowhere is followed by one from rest, and a stop in that one gives the first state.
-  local steep <const> = scenes.blocks(16, { friction = 1.2, contrast = 1000 })
-  check.that(S.multigrid{}:solve(steep).converged, "from rest")
-  local starts = 0
-  local function watch(iteration)
-    if iteration == 1 then starts = starts + 1 end
-    return starts < 2
+  -- Beside a body far stiffer, where the row's stiffness is the softer body's.
+  for _, contrast in ipairs{ 1000, 1e5 } do
+    local apart <const> = S.multigrid{}:solve(scenes.blocks(16, { friction = 1.2, contrast = contrast }))
+    check.that(apart.converged and apart.iterations <= 12, apart.reason)
   end
-  local stopped <const> = S.multigrid{ on_iteration = watch }:solve(steep)
-  check.that(starts == 2 and not stopped.converged and stopped.reason:find "; from rest: interrupted", stopped.reason)
 end
 
 -- Given friction begins on coarser meshes as well.

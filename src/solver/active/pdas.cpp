@@ -128,7 +128,7 @@ void come_to_rest(SetIteration& it) {
   while (it.step->sharpen(it.lambda, it.x)) {}
 }
 
-/// From the solution on coarser meshes. Where that does not converge, once more from rest, with the iterations that are left.
+/// From the solution on coarser meshes.
 Result solve_nested(const problem::Problem& problem, Pdas settings, Monitor& monitor) {
   Stopwatch watch;
   const CoarseStart coarse = coarse_start(problem, settings, monitor);
@@ -137,25 +137,6 @@ Result solve_nested(const problem::Problem& problem, Pdas settings, Monitor& mon
   Result result = solve(problem, settings, monitor);
   result.clock.ordering += coarse.ordering, result.clock.iterate += before - coarse.ordering;
   if (coarse.meshes > 0) result.reason += text(", begun on ", coarse.meshes, coarse.meshes == 1 ? " coarser mesh" : " coarser meshes");
-  settings.max_iterations -= result.iterations;
-  if (!coarse.state || result.converged || settings.max_iterations <= 0 || monitor.stop()) return result;
-  settings.from = nullptr;
-  monitor.phase("not converged from the coarser meshes: once more from rest");
-  watch.lap();
-  try {
-    Result again = solve(problem, settings, monitor);
-    if (again.converged) {
-      again.clock.add_solve(result.clock);
-      again.reason += "; before, " + result.reason;
-      return again;
-    }
-    result.reason += "; from rest: " + again.reason;
-  } catch (const Interrupted&) {
-    result.reason += "; interrupted before it was solved from rest";
-  } catch (const NotSolved& error) {
-    result.reason += text("; from rest: ", error.what());
-  }
-  result.clock.iterate += watch.lap();
   return result;
 }
 

@@ -82,16 +82,14 @@ void hold(const Problem& problem, const problem::RigidMotions& rigid, std::vecto
 
 SetIteration::SetIteration(const Problem& problem, const Pdas& settings, Monitor& monitor)
     : problem(problem), settings(settings), monitor(monitor), solvable(require_solvable(problem, result.clock, monitor)),
-      rho(settings.rho * problem.row_stiffness()), compliance_(problem.row_compliance()), parts_(problem::parts(problem)) {
+      rho(settings.rho * problem.row_stiffness()), parts_(problem::parts(problem)) {
   // A row that no unknown moves has no stiffness; any ρ will do.
   const double largest = rho.size() && rho.maxCoeff() > 0 ? rho.maxCoeff() : 1;
   for (int r = 0; r < rho.size(); ++r)
-    if (!(rho[r] > 0)) rho[r] = largest, compliance_[r] = settings.rho / largest;
+    if (!(rho[r] > 0)) rho[r] = largest;
   for (const auto& [law, k, r] : problem.scalar_rows())  // where there are branches to tell apart, law and bodies yield one after the other
-    if (const auto own = law.springs(k); own && !law.linear_stiffness(k) && std::max(own->below, own->above) > 0) {
-      const double yields = 1 / std::max(own->below, own->above);
-      compliance_[r] += yields, rho[r] /= 1 + rho[r] * yields;
-    }
+    if (const auto own = law.springs(k); own && !law.linear_stiffness(k) && std::max(own->below, own->above) > 0)
+      rho[r] /= 1 + rho[r] / std::max(own->below, own->above);
   lambda = Vector::Zero(problem.rows());
   result.method = settings.reduced ? "pdas" : "pdas (held)";
   place_screws();
@@ -278,7 +276,7 @@ Noise SetIteration::noise(const Vector& lambda, const Vector& x) const {
   for (Eigen::Index r = 0; r < x.size(); ++r)
     if (!(std::abs(problem.c[r]) < 1e6 * jump[r])) jump[r] = 0;
   const std::vector<double> force = parts_.greatest(lambda), moved = parts_.greatest(jump);
-  const Vector stiffness = compliance_.cwiseInverse();
+  const Vector stiffness = rho / settings.rho;
   Vector most(x.size());
   for (Eigen::Index r = 0; r < x.size(); ++r) {
     const int part = parts_.of_row[r];

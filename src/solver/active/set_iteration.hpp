@@ -78,7 +78,6 @@ class SetIteration {
   bool at_rest(const Linearisation& next) const;
   void record(const Linearisation& next);
 
-  algebra::Vector compliance_;  ///< of the rows, their springs included
   problem::Parts parts_;
   problem::Condenser own_;
   const problem::CondensedProblem* condensed_ = nullptr;

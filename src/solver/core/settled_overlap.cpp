@@ -30,7 +30,7 @@ double nodes_across(const problem::Block& block) {
 class Springs {
  public:
   explicit Springs(const Problem& problem)
-      : problem_(problem), rigid_(problem::rigid_motions(problem)), N_(rigid_.noticed_N), k_(problem.row_compliance().cwiseInverse()) {
+      : problem_(problem), rigid_(problem::rigid_motions(problem)), N_(rigid_.noticed_N), k_(problem.row_stiffness()) {
     double softer = 1;
     for (const problem::Block& block : problem.blocks) softer = std::max(softer, nodes_across(block));
     k_ /= softer;
