@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
-#include "algebra/dense/generalised_inverse.hpp"
+#include "problem/measure.hpp"
 #include "program/barrier.hpp"
 
 namespace dotyk::solver {
@@ -20,66 +21,63 @@ constexpr double kUndecidedRow = 1e-12;  ///< of the gap asked for: rows that ar
 constexpr double kNever = 1e6;  ///< so many displacements away a row never closes
 constexpr double kRigid = 1e-10;  ///< D of rigid rows, of the compliance that the body has there
 
-/// Every row's law, and what counts as a force and as a displacement.
-struct LawsInUnits {
-  LawsInUnits(const Problem& problem, HeldStiffness& stiffness);
-
-  Vector f, low, high;
+/// Every row's law.
+struct RowLaws {
+  Vector low, high;
   Vector below, above;  ///< 1/k where λ < 0 and where λ > 0
-  double force = 0, length = 0;  ///< scales of a row's multiplier and of displacements; 0: neither loaded nor pressed
-
- private:
-  void measure(const Problem& problem, HeldStiffness& stiffness);
 };
 
-LawsInUnits::LawsInUnits(const Problem& problem, HeldStiffness& stiffness) : f(problem.load()) {
-  low = high = below = above = Vector::Zero(problem.rows());
+RowLaws row_laws(const Problem& problem) {
+  const Vector none = Vector::Zero(problem.rows());
+  RowLaws all{none, none, none, none};
   const auto compliance = [](double stiffness) { return stiffness > 0 ? 1 / stiffness : 0; };
   for (const auto& [law, k, r] : problem.scalar_rows()) {
     const problem::Interval bounds = law.multipliers(k);
     const problem::Springs springs = law.springs(k).value();
-    low[r] = bounds.low, high[r] = bounds.high;
-    below[r] = compliance(springs.below), above[r] = compliance(springs.above);
+    all.low[r] = bounds.low, all.high[r] = bounds.high;
+    all.below[r] = compliance(springs.below), all.above[r] = compliance(springs.above);
   }
-  measure(problem, stiffness);
+  return all;
 }
 
-/// Of the body as it bends where as few unknowns hold it as can: under its load, and under a force on each row that would move it by what rows are off.
-void LawsInUnits::measure(const Problem& problem, HeldStiffness& stiffness) {
-  const int rows = problem.rows();
+/// u under the load where as few unknowns hold the bodies as can; empty where that cannot be factored.
+Vector bent(const Problem& problem, HeldStiffness& stiffness) {
   std::vector<char> held(problem.unknowns(), 0);
   for (const int unknown : stiffness.fixing_noticed()) held[unknown] = 1;
-  if (rows == 0 || !stiffness.factor(Vector::Zero(rows), held)) return;
-  const auto moved = [&](const Vector& forces) { return (problem.B * stiffness.solve(forces)).lpNorm<Eigen::Infinity>(); };
-  const double bent = moved(f), compliance = moved(problem.B.transpose() * Vector::Ones(rows));
-  const double pressed = std::max(0.0, -problem.c.minCoeff());
-  length = std::max(bent, pressed);
-  for (int r = 0; r < rows; ++r) {
-    if (problem.c[r] < kNever * length) length = std::max(length, problem.c[r]);
-    else if (std::isfinite(low[r])) high[r] = low[r];
-  }
-  force = std::max(f.lpNorm<1>() / rows, compliance > 0 ? pressed / compliance : 0);
+  return stiffness.factor(Vector::Zero(problem.rows()), held) ? stiffness.solve(problem.load()) : Vector();
+}
+
+/// What counts as a force and as a displacement in any part at rest, or in bodies bent by their load. Rows out of reach of that never close.
+std::pair<double, double> force_and_length(const Problem& problem, const Vector& bent, RowLaws& laws) {
+  const problem::Measure rest(problem), moved(problem, problem::State{bent, Vector::Zero(problem.rows())});
+  double force = 0, length = 0;
+  for (int p = 0; p < rest.parts().count; ++p) force = std::max(force, rest.force(p)), length = std::max({length, rest.length(p), moved.length(p)});
+  const double reach = kNever * length;
+  for (int r = 0; r < problem.rows(); ++r)
+    if (problem.c[r] < reach) length = std::max(length, problem.c[r]);
+    else if (std::isfinite(laws.low[r])) laws.high[r] = laws.low[r];
+  return {force, length};
 }
 
 /// w is λ, x is u, y = z⁺ − z⁻.
 class InteriorBarrier final : public program::Barrier {
  public:
-  InteriorBarrier(const Problem& problem, const LawsInUnits& laws, HeldStiffness& stiffness)
-      : Barrier(laws.low, laws.high), problem_(problem), laws_(laws), stiffness_(stiffness), own_(problem.row_stiffness()) {
+  InteriorBarrier(const Problem& problem, const RowLaws& laws, std::pair<double, double> scale, HeldStiffness& stiffness)
+      : Barrier(laws.low, laws.high), problem_(problem), laws_(laws), force_(scale.first), length_(scale.second), stiffness_(stiffness), f_(problem.load()), own_(problem.row_stiffness()) {
     at_.x = Vector::Zero(problem.unknowns());
-    place(Vector::Zero(rows()).cwiseMax(low_).cwiseMin(high_), laws.force, laws.force * laws.length);
+    place(Vector::Zero(rows()).cwiseMax(low_).cwiseMin(high_), force_, force_ * length_);
   }
 
   void evaluate() override {
     Barrier::evaluate();
-    equilibrium_ = laws_.f - problem::stiffness_times(problem_, at_.x) - problem_.B.transpose() * at_.w;
+    equilibrium_ = f_ - problem::stiffness_times(problem_, at_.x) - problem_.B.transpose() * at_.w;
     compatibility_ = problem_.c + at_.y - problem_.B * at_.x;
     for (int r = 0; r < rows(); ++r) compatibility_[r] = fixed(r) ? 0 : compatibility_[r] + compliance(r) * at_.w[r];
   }
 
   bool done(double tol) const {
-    const double left = gap() / (laws_.force * laws_.length);
-    const double off = std::max(equilibrium_.lpNorm<1>() / (laws_.force * rows()), compatibility_.lpNorm<Eigen::Infinity>() / laws_.length);
+    const double left = gap() / (force_ * length_);
+    const double off = std::max(equilibrium_.lpNorm<1>() / (force_ * rows()), compatibility_.lpNorm<Eigen::Infinity>() / length_);
     return left <= tol && (off <= kBalancedResidual || left <= kBalancedResidual * tol) && (decided() || left <= kUndecidedRow * tol);
   }
 
@@ -113,9 +111,10 @@ class InteriorBarrier final : public program::Barrier {
   }
 
   const Problem& problem_;
-  const LawsInUnits& laws_;
+  const RowLaws& laws_;
+  const double force_, length_;
   HeldStiffness& stiffness_;
-  const Vector own_;
+  const Vector f_, own_;
   Vector equilibrium_, compatibility_, spring_;  ///< spring_: D⁻¹
 };
 
@@ -123,9 +122,10 @@ class InteriorBarrier final : public program::Barrier {
 
 InteriorPointState interior_start(const Problem& problem, HeldStiffness& stiffness, double tol, Monitor& monitor) {
   InteriorPointState out;
-  const LawsInUnits laws(problem, stiffness);
-  if (!(laws.force > 0 && laws.length > 0)) return out;
-  InteriorBarrier barrier(problem, laws, stiffness);
+  const Vector u = problem.rows() > 0 ? bent(problem, stiffness) : Vector();
+  if (u.size() == 0) return out;
+  RowLaws laws = row_laws(problem);
+  InteriorBarrier barrier(problem, laws, force_and_length(problem, u, laws), stiffness);
   for (barrier.evaluate(); out.iterations < kMostInteriorSteps && !barrier.done(tol) && !monitor.stop() && barrier.step(); barrier.evaluate()) ++out.iterations;
   barrier.round(out);
   return out;
