@@ -1,11 +1,5 @@
 #include "problem/coarser.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <map>
-#include <numeric>
-#include <stdexcept>
-
 #include "algebra/congruent.hpp"
 #include "algebra/dense/decompositions.hpp"
 

@@ -1,15 +1,10 @@
 #include "problem/condensed.hpp"
 
-#include <numeric>
-#include <utility>
-
 #include "algebra/dense/dense.hpp"
 #include "algebra/direct/blas_threads.hpp"
 #include "algebra/direct/stop_factoring.hpp"
-#include "base/error.hpp"
 #include "base/memory.hpp"
 #include "base/stopwatch.hpp"
-#include "base/text.hpp"
 
 namespace dotyk::problem {
 

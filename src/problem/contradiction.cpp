@@ -1,7 +1,5 @@
 #include "problem/contradiction.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <tuple>
 
 #include "algebra/dense/cone_least_squares.hpp"

@@ -1,12 +1,8 @@
 #include "problem/free_motions.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "algebra/dense/decompositions.hpp"
 #include "algebra/dense/null_space.hpp"
 #include "problem/parts.hpp"
-#include "problem/rigid_motions.hpp"
 
 namespace dotyk::problem {
 

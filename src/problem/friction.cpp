@@ -1,6 +1,5 @@
 #include "problem/friction.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "base/error.hpp"

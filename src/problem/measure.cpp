@@ -1,9 +1,5 @@
 #include "problem/measure.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 #include "algebra/dense/decompositions.hpp"
 
 namespace dotyk::problem {

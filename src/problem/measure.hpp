@@ -32,10 +32,10 @@ class Measure {
   double least_force(std::size_t part) const;
   double force_of_row(int row) const { return force_[static_cast<std::size_t>(parts_.of_row[row])]; }
   double length_of_row(int row) const;
+  /// ‖|K||u|‖ of a part.
+  double gross_forces(const Problem& problem, std::size_t part, const Displacement& u) const;
 
  private:
-  /// ‖|K||u|‖.
-  double gross_forces(const Problem& problem, std::size_t part, const Displacement& u) const;
   void take_loads(const Problem& problem);
   void take_rows(const Problem& problem);
   void count_others();

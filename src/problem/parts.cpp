@@ -1,10 +1,6 @@
 #include "problem/parts.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "algebra/dense/null_space.hpp"
-#include "base/parallel.hpp"
 
 namespace dotyk::problem {
 

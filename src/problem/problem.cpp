@@ -1,15 +1,9 @@
 #include "problem/problem.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <type_traits>
-
 #include "algebra/symmetric_matrix.hpp"
 #include "algebra/congruent.hpp"
 #include "algebra/dense/generalised_inverse.hpp"
-#include "base/error.hpp"
 #include "base/moderate.hpp"
-#include "base/text.hpp"
 
 namespace dotyk::problem {
 

@@ -1,14 +1,9 @@
 #include "problem/residual.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <iomanip>
-#include <limits>
 
 #include "algebra/dense/decompositions.hpp"
 #include "algebra/dense/generalised_inverse.hpp"
-#include "base/text.hpp"
-#include "problem/parts.hpp"
 
 namespace dotyk::problem {
 
@@ -92,14 +87,6 @@ double greatest_ratio(const std::vector<double>& of_part, const Scale& scale) {
   for (std::size_t p = 0; p < of_part.size(); ++p)
     if (const double size = scale(p); size > 0) most = std::max(most, of_part[p] / size);
   return most;
-}
-
-/// By part the norm of what `of` makes of its blocks.
-template <class Of>
-std::vector<double> norms(const Problem& problem, const Parts& parts, const Of& of) {
-  std::vector<double> norm(parts.count, 0);
-  for (std::size_t b = 0; b < problem.blocks.size(); ++b) add(norm[parts.of_block[b]], of(problem.blocks[b]));
-  return norm;
 }
 
 /// ‖|K||w|‖, w the part of u in the block's kernel.
@@ -198,8 +185,9 @@ double distance_from_laws(const Problem& problem, const State& state) {
 
 double rounding_of_equilibrium(const Problem& problem, const State& state) {
   const Measure m(problem, state);
-  const auto gross = norms(problem, m.parts(), [&](const Block& block) { return block.K.gross_times(state.u.here().segment(block.first, block.size())); });
-  return std::numeric_limits<double>::epsilon() * greatest_ratio(gross, [&](std::size_t p) { return m.force(p); });
+  double most = 0;
+  for (int p = 0; p < m.parts().count; ++p) most = std::max(most, m.gross_forces(problem, p, state.u) / m.force(p));
+  return std::numeric_limits<double>::epsilon() * most;
 }
 
 Vector rounding_of_forces(const Problem& problem, const State& state) {

@@ -1,11 +1,8 @@
 #include "problem/rigid_motions.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <iomanip>
 
 #include "algebra/dense/null_space.hpp"
-#include "base/text.hpp"
 
 namespace dotyk::problem {
 

@@ -1,10 +1,6 @@
 #include "problem/row_basis.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <map>
 #include <unordered_map>
-#include <utility>
 
 namespace dotyk::problem {
 

@@ -1,11 +1,5 @@
 #include "problem/solvability.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <optional>
-#include <stdexcept>
-#include <vector>
-
 #include "algebra/dense/bounded_least_squares.hpp"
 #include "algebra/dense/cone_least_squares.hpp"
 #include "problem/parts.hpp"

@@ -1,14 +1,10 @@
 #include "problem/uniqueness.hpp"
 
 #include <Eigen/SparseCholesky>
-#include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "algebra/dense/dense.hpp"
 #include "algebra/krylov/lanczos.hpp"
 #include "algebra/dense/null_space.hpp"
-#include "problem/rigid_motions.hpp"
 
 namespace dotyk::problem {
 

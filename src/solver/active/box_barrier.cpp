@@ -1,8 +1,5 @@
 #include "solver/active/box_barrier.hpp"
 
-#include <algorithm>
-#include <optional>
-
 #include "algebra/dense/decompositions.hpp"
 #include "algebra/dense/dense.hpp"
 #include "program/barrier.hpp"

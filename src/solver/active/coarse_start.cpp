@@ -1,9 +1,6 @@
 #include "solver/active/coarse_start.hpp"
 
-#include <utility>
-
 #include "algebra/direct/stop_factoring.hpp"
-#include "base/error.hpp"
 #include "base/stopwatch.hpp"
 #include "problem/coarser.hpp"
 #include "solver/core/default_method.hpp"

@@ -1,16 +1,10 @@
 #include "solver/active/held_stiffness.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <stdexcept>
-#include <utility>
-
 #include "algebra/congruent.hpp"
 #include "algebra/dense/dense.hpp"
 #include "algebra/dense/generalised_inverse.hpp"
 #include "algebra/dense/null_space.hpp"
 #include "algebra/symmetric_matrix.hpp"
-#include "base/text.hpp"
 #include "problem/coarser.hpp"
 
 namespace dotyk::solver {

@@ -1,9 +1,5 @@
 #include "solver/active/interior_start.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
 #include "problem/measure.hpp"
 #include "program/barrier.hpp"
 

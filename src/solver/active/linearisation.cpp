@@ -1,9 +1,5 @@
 #include "solver/active/linearisation.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <numeric>
 #include <string_view>
 
 namespace dotyk::solver {

@@ -1,8 +1,5 @@
 #include "solver/active/nested_start.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "solver/active/box_barrier.hpp"
 
 namespace dotyk::solver {

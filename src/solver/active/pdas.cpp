@@ -1,14 +1,5 @@
-#include "solver/active/pdas.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <optional>
-#include <stdexcept>
-#include <utility>
 
-#include "base/stopwatch.hpp"
-#include "base/text.hpp"
 #include "solver/active/coarse_start.hpp"
 #include "solver/active/nested_start.hpp"
 #include "solver/active/set_iteration.hpp"

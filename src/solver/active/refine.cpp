@@ -1,9 +1,5 @@
 #include "solver/active/refine.hpp"
 
-#include <algorithm>
-#include <optional>
-
-#include "base/text.hpp"
 #include "solver/active/pdas.hpp"
 #include "solver/core/treatable.hpp"
 #include "solver/rows/natural_map.hpp"

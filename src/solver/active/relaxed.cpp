@@ -1,9 +1,5 @@
 #include "solver/active/relaxed.hpp"
 
-#include <array>
-#include <cmath>
-#include <utility>
-
 #include "algebra/congruent.hpp"
 
 namespace dotyk::solver {

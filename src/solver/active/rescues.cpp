@@ -3,7 +3,6 @@
 #include <numeric>
 
 #include "base/text.hpp"
-#include "problem/residual.hpp"
 #include "solver/active/box_barrier.hpp"
 #include "solver/active/descent.hpp"
 #include "solver/active/interior_start.hpp"

@@ -1,13 +1,8 @@
 #include "solver/active/screws.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "algebra/dense/bounded_least_squares.hpp"
 #include "algebra/dense/decompositions.hpp"
 #include "algebra/dense/dense.hpp"
-#include "base/error.hpp"
-#include "base/text.hpp"
 #include "problem/uniqueness.hpp"
 #include "solver/rows/projection.hpp"
 

@@ -1,12 +1,6 @@
 #include "solver/active/set_iteration.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
 #include "algebra/dense/null_space.hpp"
-#include "base/error.hpp"
-#include "base/text.hpp"
 #include "problem/residual.hpp"
 #include "solver/active/relaxed.hpp"
 

@@ -1,10 +1,5 @@
 #include "solver/bounded/dual_laws.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <numeric>
-
-#include "problem/law.hpp"
 #include "solver/rows/projection.hpp"
 
 namespace dotyk::solver {

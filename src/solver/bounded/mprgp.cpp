@@ -1,6 +1,5 @@
 #include "solver/bounded/mprgp.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 

@@ -1,6 +1,5 @@
 #include "solver/bounded/separable_set.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 

@@ -1,6 +1,5 @@
 #include "solver/bounded/smalbe.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
 

@@ -1,10 +1,6 @@
 #include "solver/core/default_method.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "base/memory.hpp"
-#include "base/stopwatch.hpp"
 #include "multigrid/multigrid.hpp"
 #include "problem/coarser.hpp"
 #include "solver/active/pdas.hpp"

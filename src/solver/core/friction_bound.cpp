@@ -1,10 +1,6 @@
 #include "solver/core/friction_bound.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <numbers>
-#include <utility>
-#include <vector>
 
 #include "algebra/dense/decompositions.hpp"
 #include "program/interior_point.hpp"

@@ -1,5 +1,4 @@
 #include "base/stopwatch.hpp"
-#include "problem/condensed.hpp"
 #include "solver/core/require_solvable.hpp"
 #include "solver/core/solver.hpp"
 

@@ -1,11 +1,6 @@
 #include "solver/core/method.hpp"
 
-#include <vector>
-
-#include "base/error.hpp"
-#include "base/text.hpp"
 #include "solver/core/friction_bound.hpp"
-#include "solver/core/treatable.hpp"
 
 namespace dotyk::solver {
 namespace {

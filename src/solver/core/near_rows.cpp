@@ -1,8 +1,5 @@
 #include "solver/core/near_rows.hpp"
 
-#include <algorithm>
-#include <optional>
-
 #include "solver/core/settled_overlap.hpp"
 
 namespace dotyk::solver {

@@ -1,11 +1,7 @@
 #include "solver/core/require_solvable.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "algebra/direct/stop_factoring.hpp"
 #include "base/stopwatch.hpp"
-#include "base/text.hpp"
 #include "problem/uniqueness.hpp"
 
 namespace dotyk::solver {

@@ -1,7 +1,5 @@
 #include "solver/core/row_subset.hpp"
 
-#include <algorithm>
-
 namespace dotyk::solver {
 
 using algebra::Vector;

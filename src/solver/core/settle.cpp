@@ -1,12 +1,6 @@
 #include "solver/core/settle.hpp"
 
-#include <Eigen/Core>
-#include <cmath>
-#include <limits>
-
 #include "algebra/dense/null_space.hpp"
-#include "base/error.hpp"
-#include "base/text.hpp"
 #include "problem/uniqueness.hpp"
 #include "program/active_set.hpp"
 #include "solver/core/verdict.hpp"

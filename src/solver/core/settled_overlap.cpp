@@ -1,10 +1,5 @@
 #include "solver/core/settled_overlap.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <numeric>
-#include <vector>
-
 #include "algebra/direct/cholesky.hpp"
 #include "problem/rigid_motions.hpp"
 

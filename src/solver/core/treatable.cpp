@@ -1,10 +1,5 @@
 #include "solver/core/treatable.hpp"
 
-#include <algorithm>
-
-#include "base/error.hpp"
-#include "base/text.hpp"
-
 namespace dotyk::solver {
 
 void require_frictionless(const problem::Problem& problem, const std::string& method) {

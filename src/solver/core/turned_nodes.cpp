@@ -1,9 +1,5 @@
 #include "solver/core/turned_nodes.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <map>
-
 #include "algebra/congruent.hpp"
 #include "algebra/dense/decompositions.hpp"
 

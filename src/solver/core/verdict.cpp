@@ -1,11 +1,5 @@
 #include "solver/core/verdict.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <stdexcept>
-
-#include "base/text.hpp"
 #include "solver/core/settle.hpp"
 
 namespace dotyk::solver {

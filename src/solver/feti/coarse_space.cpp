@@ -1,12 +1,6 @@
 #include "solver/feti/coarse_space.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <numeric>
-#include <stdexcept>
-
 #include "algebra/dense/decompositions.hpp"
-#include "algebra/dense/generalised_inverse.hpp"
 
 namespace dotyk::solver {
 

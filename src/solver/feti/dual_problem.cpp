@@ -1,11 +1,8 @@
 #include "solver/feti/dual_problem.hpp"
 
-#include <algorithm>
-
 #include "algebra/direct/blas_threads.hpp"
 #include "base/memory.hpp"
 #include "base/stopwatch.hpp"
-#include "base/text.hpp"
 
 namespace dotyk::solver {
 

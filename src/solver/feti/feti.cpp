@@ -1,15 +1,7 @@
-#include "solver/feti/feti.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
 
-#include "base/error.hpp"
 #include "base/stopwatch.hpp"
-#include "base/text.hpp"
-#include "problem/rigid_motions.hpp"
 #include "problem/uniqueness.hpp"
-#include "solver/feti/coarse_space.hpp"
 #include "solver/feti/feti_preconditioner.hpp"
 #include "solver/rows/projection.hpp"
 #include "solver/core/require_solvable.hpp"

@@ -1,8 +1,5 @@
 #include "solver/feti/feti_preconditioner.hpp"
 
-#include <cmath>
-#include <stdexcept>
-
 namespace dotyk::solver {
 
 using algebra::SparseMatrix;

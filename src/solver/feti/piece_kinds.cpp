@@ -1,14 +1,7 @@
 #include "solver/feti/piece_kinds.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <map>
-
 #include "algebra/dense/dense.hpp"
 #include "algebra/direct/blas_threads.hpp"
-#include "base/error.hpp"
-#include "base/parallel.hpp"
-#include "base/text.hpp"
 
 namespace dotyk::solver {
 

@@ -1,12 +1,8 @@
 #include "solver/feti/piece_stiffness.hpp"
 
-#include <algorithm>
-#include <numeric>
-
 #include "algebra/dense/decompositions.hpp"
 #include "algebra/direct/blas_threads.hpp"
 #include "base/memory.hpp"
-#include "base/text.hpp"
 
 namespace dotyk::solver {
 

@@ -1,12 +1,5 @@
 #include "solver/feti/torn_problem.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <numeric>
-#include <span>
-#include <stdexcept>
-
-#include "base/text.hpp"
 #include "solver/bounded/dual_laws.hpp"
 
 namespace dotyk::solver {

@@ -1,13 +1,8 @@
 #include "solver/pieces/enumeration.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "algebra/dense/decompositions.hpp"
 #include "algebra/dense/dense.hpp"
 #include "algebra/dense/polyhedron.hpp"
-#include "base/error.hpp"
-#include "base/text.hpp"
 #include "solver/rows/natural_map.hpp"
 #include "solver/core/require_solvable.hpp"
 

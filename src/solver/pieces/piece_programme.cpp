@@ -1,10 +1,6 @@
 #include "solver/pieces/piece_programme.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <numbers>
-#include <utility>
 
 #include "algebra/dense/dense.hpp"
 #include "solver/rows/natural_map.hpp"

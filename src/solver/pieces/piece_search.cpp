@@ -1,12 +1,6 @@
 #include "solver/pieces/piece_search.hpp"
 
-#include <algorithm>
-#include <map>
-#include <optional>
 #include <set>
-#include <stdexcept>
-#include <utility>
-#include <vector>
 
 #include "algebra/dense/bounded_least_squares.hpp"
 #include "algebra/dense/cone_least_squares.hpp"

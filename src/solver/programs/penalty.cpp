@@ -1,10 +1,6 @@
 #include "solver/programs/penalty.hpp"
 
-#include <cmath>
-
 #include "algebra/dense/generalised_inverse.hpp"
-#include "base/text.hpp"
-#include "problem/law.hpp"
 #include "problem/residual.hpp"
 #include "solver/active/pdas.hpp"
 #include "solver/core/treatable.hpp"

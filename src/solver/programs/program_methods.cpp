@@ -1,11 +1,7 @@
 #include "solver/programs/program_methods.hpp"
 
-#include <cmath>
-#include <functional>
-
 #include "base/memory.hpp"
 #include "base/stopwatch.hpp"
-#include "base/text.hpp"
 #include "problem/residual.hpp"
 #include "program/interior_point.hpp"
 #include "solver/active/linearisation.hpp"

@@ -1,10 +1,5 @@
 #include "solver/rows/coulomb_loop.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
-#include "base/text.hpp"
 #include "solver/rows/projection.hpp"
 
 namespace dotyk::solver {

@@ -1,7 +1,5 @@
 #include "solver/rows/equilibrium.hpp"
 
-#include <utility>
-
 #include "algebra/dense/dense.hpp"
 #include "algebra/krylov/lanczos.hpp"
 

@@ -1,9 +1,5 @@
 #include "solver/rows/natural_map.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
 #include "algebra/dense/dense.hpp"
 #include "solver/active/linearisation.hpp"
 

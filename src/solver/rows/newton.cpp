@@ -1,13 +1,8 @@
 #include "solver/rows/newton.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <random>
-#include <string>
-#include <vector>
 
 #include "algebra/dense/dense.hpp"
-#include "base/text.hpp"
 #include "problem/uniqueness.hpp"
 #include "solver/core/require_solvable.hpp"
 #include "solver/core/treatable.hpp"

@@ -1,8 +1,5 @@
 #include "solver/rows/projected_cg.hpp"
 
-#include <optional>
-
-#include "base/text.hpp"
 #include "problem/uniqueness.hpp"
 #include "solver/bounded/dual_laws.hpp"
 #include "solver/bounded/mprgp.hpp"

@@ -1,9 +1,5 @@
 #include "solver/rows/proximal.hpp"
 
-#include <algorithm>
-#include <cmath>
-
-#include "base/text.hpp"
 #include "problem/uniqueness.hpp"
 #include "solver/rows/projection.hpp"
 

@@ -1,13 +1,7 @@
 #include "solver/rows/row_iteration.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 #include "algebra/dense/decompositions.hpp"
 #include "algebra/direct/stop_factoring.hpp"
-#include "base/text.hpp"
-#include "problem/residual.hpp"
 #include "solver/active/refine.hpp"
 #include "solver/core/require_solvable.hpp"
 #include "solver/core/settle.hpp"
@@ -28,12 +22,6 @@ Vector RowMeasure::forces(const Vector& lambda) const {
   std::vector<double> of_part = measure_.parts().norm(lambda);
   for (std::size_t p = 0; p < of_part.size(); ++p) of_part[p] = std::max(of_part[p], measure_.least_force(p));
   return by_row(of_part);
-}
-
-Vector RowMeasure::rounding(const Vector& alpha, const Vector& x) const {
-  const Vector moved = alpha.size() > 0 ? Vector(condensed_->N() * alpha) : Vector::Zero(x.size());
-  const auto greatest = [&](const Vector& v) { return by_row(measure_.parts().greatest(v)); };
-  return kSumRoundings * kEps * (greatest(condensed_->x0()) + greatest(moved) + greatest(condensed_->x0() + moved - x));
 }
 
 Vector RowMeasure::by_row(const std::vector<double>& of_part) const {

@@ -27,8 +27,6 @@ class RowMeasure {
   const algebra::Vector& stiffness() const { return measure_.stiffness(); }
   /// F by row, that of its part.
   algebra::Vector forces(const algebra::Vector& lambda) const;
-  /// kεG by row, that of its part: what rounding may leave of x, a displacement.
-  algebra::Vector rounding(const algebra::Vector& alpha, const algebra::Vector& x) const;
   struct Rho {
     algebra::Vector rho;
     algebra::Vector rounding;  ///< by row, of x
@@ -73,7 +71,7 @@ class RowIteration {
   /// By row, the force that the iterate's errors are measured by (RowMeasure::forces()); 1 where it would vanish.
   algebra::Vector forces() const;
   /// By row, how far rounding may put the iterate's jump off, a displacement.
-  algebra::Vector rounding() const { return measure_.rounding(at_.alpha, value_.x); }
+  algebra::Vector rounding() const { return measure_.rho(at_.lambda, at_.alpha, value_.x).rounding; }
   /// ‖λ − P(λ + ρx)‖ of the iterate: F without what is out of balance.
   double law_residual() const { return (at_.lambda - value_.projected).norm(); }
   void move_to(Iterate iterate);

@@ -1,6 +1,5 @@
 #include "solver/rows/uzawa.hpp"
 
-#include "base/text.hpp"
 #include "solver/rows/equilibrium.hpp"
 #include "solver/rows/projection.hpp"
 

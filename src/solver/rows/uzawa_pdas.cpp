@@ -1,12 +1,8 @@
 #include "solver/rows/uzawa_pdas.hpp"
 
-#include <algorithm>
 #include <deque>
-#include <optional>
 
 #include "algebra/dense/decompositions.hpp"
-#include "base/error.hpp"
-#include "base/text.hpp"
 #include "problem/uniqueness.hpp"
 #include "solver/rows/equilibrium.hpp"
 #include "solver/rows/projection.hpp"
