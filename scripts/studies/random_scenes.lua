@@ -127,6 +127,8 @@ end
 -- 3. The class of a scene, and what there is to say about it.
 local function refused(scene, message, made)
   message = message:gsub("^.-:%d+: ", "")
+  -- Sides of bent bodies may lie beside each other.
+  if message:find "do not face each other" and scene.curved then return "refused" end
   if message:find "no displacement can part them" then
     if contradictions.told(scene, message) then return "refused" end
     return "REFUSED", message

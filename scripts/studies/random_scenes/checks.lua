@@ -282,6 +282,7 @@ function checks.check(scene, made, solution, before)
     if support.law then check_support(support, supports[k], tol, wrong) end
   end
   check_equilibrium(scene, made, solution, contacts, supports, tol, wrong)
+  if scene.accuracy then tol.node = math.max(tol.node, scene.accuracy * tol.gross) end
   local rubbing = 0 -- given friction's bounds, of which slips known to 1e-7 make work
   for k, contact in ipairs(scene.contacts) do
     local given = contact.friction and contact.friction.kind == "tresca" and contact.friction.value < math.huge

@@ -60,9 +60,12 @@ std::optional<Result> on_all_unknowns(const Problem& problem, const Settings& se
   Pdas whole;
   whole.tol = settings.tol, whole.ordering = settings.ordering, whole.reduced = false, whole.start = active;
   InnerMonitor inner(monitor);
-  Result found = solve(problem, whole, inner);
-  if (!found.converged || !(problem::residual(problem, found.state).laws() < laws)) return std::nullopt;
-  return found;
+  try {
+    Result found = solve(problem, whole, inner);
+    if (found.converged && problem::residual(problem, found.state).laws() < laws) return found;
+  } catch (const InputError&) {  // rows that share their unknowns with others are no task for it
+  }
+  return std::nullopt;
 }
 
 bool go_on_on_all_unknowns(const Problem& problem, const Settings& settings, Result& result, Monitor& monitor) {

@@ -198,7 +198,7 @@ bool RowIteration::accept() {
   problem::State state{condensed.recover(best.lambda, best.alpha), best.lambda};
   settle_on_springs(problem, result_.noise, state);
   const problem::Residual r = problem::residual(problem, state);
-  const double allowed = std::max(kRounded, kRoundings * problem::rounding_of_equilibrium(problem, state));
+  const double allowed = std::min(result_.noise, std::max(kRounded, kRoundings * problem::rounding_of_equilibrium(problem, state)));
   if (!(r.laws() <= allowed && r.equilibrium <= allowed)) return false;
   move_to(best);
   accepted_ = r.laws();
