@@ -1,4 +1,4 @@
-
+#include "solver/active/pdas.hpp"
 
 #include "solver/active/coarse_start.hpp"
 #include "solver/active/nested_start.hpp"
@@ -65,13 +65,12 @@ void conclude(SetIteration& it, End end, bool inside, const std::string& rescued
     case End::misplaced: result.reason = text("a screw still pulls after ", it.screws->moves(), " moves"); break;
     case End::interrupted: result.reason = "interrupted; this is the state so far"; break;
     case End::singular:
-      result.reason = text("the linear problem of iteration ", result.iterations, " is singular: active rows contradict each other or do not hold a body",
-                           inside ? "; tried interior_point" : "");
-      break;
     case End::cycle: {
-      const std::string why = "active sets repeated at " + it.places();
-      result.reason = "active sets repeat at " + it.places();
-      if (!it.settings.rough && !it.problem.hides() && !by_active_set(it, why)) by_proximal(it, why);
+      const std::string why = cause(it, end);
+      result.reason = end == End::cycle ? "active sets repeat at " + it.places()
+                                        : text("the linear problem of iteration ", result.iterations, " is singular: active rows contradict each other or do not hold a body",
+                                               inside ? "; tried interior_point" : "");
+      if (!it.settings.rough && !it.problem.hides() && it.problem.friction.empty() && !by_active_set(it, why)) by_proximal(it, why);
       break;
     }
     case End::exhausted:

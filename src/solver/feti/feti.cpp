@@ -1,4 +1,4 @@
-
+#include "solver/feti/feti.hpp"
 
 #include "base/stopwatch.hpp"
 #include "problem/uniqueness.hpp"
