@@ -181,6 +181,29 @@ TEST_CASE("row stiffness is that of the bodies one after the other") {
   CHECK(p.group_of_rows()[0] == &p.groups[0]);
 }
 
+TEST_CASE("how far a body moves as a whole is no measure of its gaps") {
+  // A bar of stiffness C, pushed by 1 against a wall a million away: λ = 1, u = (10⁶, 10⁶ + 1/C).
+  const double C = 1000, away = 1e6;
+  Problem p;
+  Block bar;
+  bar.name = "bar";
+  bar.K = test::lower((DenseMatrix(2, 2) << C, -C, -C, C).finished());
+  bar.f = Vector::Unit(2, 1);
+  bar.node = {0, 1};
+  bar.kernel = DenseMatrix::Ones(2, 1);
+  add(p, bar);
+  p.B = test::rows(DenseMatrix::Identity(1, 2));
+  p.c = Vector::Constant(1, away);
+  p.groups.push_back(test::group(unilateral(), 0, 1));
+  const auto beyond = [&](double by) { return residual(p, {Vector{{away + by, away + by + 1 / C}}, Vector::Ones(1)}).laws(); };
+  CHECK(beyond(0) == 0);
+  CHECK(beyond(1e-9) == 0);  // 10⁶ is known to no more
+  p.c[0] = 0;  // a gap is a measure of its own row
+  CHECK(residual(p, {Vector{{1e-5, 1e-5 + 1 / C}}, Vector::Ones(1)}).laws() > 1e-3);
+  p.c[0] = -1e-3;
+  CHECK(residual(p, {Vector{{-1e-3 + 1e-5, -1e-3 + 1e-5 + 1 / C}}, Vector::Ones(1)}).laws() > 1e-3);
+}
+
 TEST_CASE("rounding of a motion as a whole is told from forces out of balance and from wrong strains") {
   // A bar of stiffness C, pushed by 1 onto a spring of stiffness 7: λ = 1, u = (1/7, 1/7 + 1/C).
   const double C = 3e12, seventh = 1.0 / 7;

@@ -43,11 +43,12 @@ Vector bent(const Problem& problem, HeldStiffness& stiffness) {
   return stiffness.factor(Vector::Zero(problem.rows()), held) ? stiffness.solve(problem.load()) : Vector();
 }
 
-/// What counts as a force and as a displacement in any part at rest, or in bodies bent by their load. Rows out of reach of that never close.
+/// What counts as a row's force in any part at rest, and as a displacement of bodies bent by their load. Rows out of reach of that never close.
 std::pair<double, double> force_and_length(const Problem& problem, const Vector& bent, RowLaws& laws) {
   const problem::Measure rest(problem), moved(problem, problem::State{bent, Vector::Zero(problem.rows())});
   double force = 0, length = 0;
-  for (int p = 0; p < rest.parts().count; ++p) force = std::max(force, rest.force(p)), length = std::max({length, rest.length(p), moved.length(p)});
+  for (int p = 0; p < rest.parts().count; ++p) force = std::max(force, rest.force(p)), length = std::max(length, moved.length(p));
+  force /= std::sqrt(problem.rows());
   const double reach = kNever * length;
   for (int r = 0; r < problem.rows(); ++r)
     if (problem.c[r] < reach) length = std::max(length, problem.c[r]);
