@@ -28,6 +28,7 @@ PrimalProgram::PrimalProgram(const Problem& problem, const problem::RigidMotions
     for (const Block& block : problem.blocks) program_.q.segment(block.first, block.size()) = -block.f;
     take_rows(problem.B);
   }
+  rescale();
 }
 
 /// Fills P and q by the blocks condensed; returns B on their unknowns.
@@ -80,18 +81,35 @@ void PrimalProgram::take_rows(const SparseRows& B) {
   program_.high = problem_.c(rows_);
 }
 
+/// The tolerances of programs are beside 1. What drives the solution, forces and rows that zero violates,
+/// makes the unit, each turned into the root of an energy by the stiffness on the diagonal.
+void PrimalProgram::rescale() {
+  const Vector stiffness = program_.P.diagonal(), compliance = program::row_compliance(program_);
+  double unit = 0;
+  for (int j = 0; j < program_.unknowns(); ++j)
+    if (stiffness[j] > 0) unit = std::max(unit, std::abs(program_.q[j]) / std::sqrt(stiffness[j]));
+  for (int r = 0; r < program_.rows(); ++r) {
+    const double violation = std::max(-program_.high[r], program_.low[r]);
+    if (violation > 0 && compliance[r] > 0) unit = std::max(unit, violation / std::sqrt(compliance[r]));
+  }
+  if (unit > 0 && std::isfinite(unit)) unit_ = unit;
+  program_.q /= unit_;
+  program_.low /= unit_;
+  program_.high /= unit_;
+}
+
 problem::State PrimalProgram::state(const Vector& x, const Vector& y) const {
-  Vector u = x;
+  Vector u = unit_ * x;
   if (!condensed_.empty()) u.resize(problem_.unknowns());
   Eigen::Index first = 0;
   for (std::size_t b = 0; b < condensed_.size(); ++b) {
     const Eigen::Index size = condensed_[b].load.size();
-    u.segment(problem_.blocks[b].first, problem_.blocks[b].size()) = condensed_[b].condensation.recover(x.segment(first, size));
+    u.segment(problem_.blocks[b].first, problem_.blocks[b].size()) = condensed_[b].condensation.recover(unit_ * x.segment(first, size));
     first += size;
   }
   problem::State state{problem::least(unnoticed_, std::move(u)), {}};
   state.lambda = spring_.cwiseProduct(problem::jumps(problem_, state.u));
-  state.lambda(rows_) = y;
+  state.lambda(rows_) = unit_ * y;
   return state;
 }
 
@@ -102,6 +120,10 @@ double PrimalProgram::factor_bytes() const {
 }
 
 namespace {
+
+/// What the laws' residual, relative to the forces, is to be at the end of the interior-point method: the gap is relative to the energy, and
+/// where bodies are displaced as a whole that is far more than what presses them.
+constexpr double kFine = 1e-8;
 
 /// Tells the watcher of a program's iterations and writes them into a history.
 class Recorder final : public Monitor {
@@ -186,7 +208,8 @@ Result solve(const Problem& problem, const ActiveSet& settings, Monitor& monitor
 
 Result solve(const Problem& problem, const InteriorPoint& settings, Monitor& monitor) {
   return solve_primal(problem, "interior_point", settings, monitor, [&](const PrimalProgram& primal, Monitor& recorder) {
-    return program::solve(primal.program(), program::InteriorPoint{settings.tol, settings.max_iterations}, recorder);
+    const auto fine = [&](const Vector& x, const Vector& y) { return problem::residual(problem, primal.state(x, y)).law <= kFine; };
+    return program::solve(primal.program(), program::InteriorPoint{settings.tol, settings.max_iterations, fine}, recorder);
   });
 }
 

@@ -23,7 +23,8 @@ struct ActiveSet : Settings {
 
 /// Mehrotra's predictor–corrector interior-point method on the same program, see
 /// program/interior_point.hpp. At its end every multiplier and every gap is positive; a row is called closed
-/// where the multiplier is the larger one, in units in which rows and energy are of size 1.
+/// where the multiplier is the larger one, in units in which rows and energy are of size 1. Where forces violate their laws by more
+/// than 1e-8 of them at `tol`, it goes on as long as it gets nearer: its gap is relative to the energy, whatever of that the forces make.
 struct InteriorPoint : Settings {
   static constexpr bool begins_anew = true;
   bool reduced = true;  ///< as of ActiveSet
@@ -45,6 +46,7 @@ class PrimalProgram {
   PrimalProgram(const problem::Problem& problem, const problem::RigidMotions& rigid, const std::string& method,
                 bool reduced, algebra::Ordering ordering, problem::Clock& clock, Monitor& monitor);
 
+  /// In units in which the solution is of size 1.
   const program::QuadraticProgram& program() const { return program_; }
   /// The row of the problem behind each row of the program.
   const std::vector<int>& rows() const { return rows_; }
@@ -56,6 +58,7 @@ class PrimalProgram {
  private:
   algebra::SparseRows condense(algebra::Ordering ordering, problem::Clock& clock, Monitor& monitor);
   void take_rows(const algebra::SparseRows& B);
+  void rescale();
 
   const problem::Problem& problem_;
   program::QuadraticProgram program_;
@@ -63,6 +66,7 @@ class PrimalProgram {
   std::vector<int> rows_;
   algebra::Vector spring_;  ///< k_r, one a row of the problem; 0 of the others
   algebra::SparseMatrix unnoticed_;
+  double unit_ = 1;  ///< u = unit_ x, λ = unit_ y
 };
 
 }  // namespace dotyk::solver
