@@ -1,6 +1,6 @@
 #include "problem/measure.hpp"
 
-#include "algebra/dense/decompositions.hpp"
+#include "problem/rigid_motions.hpp"
 
 namespace dotyk::problem {
 
@@ -23,7 +23,7 @@ std::vector<double> deformation(const Problem& problem, const Parts& parts, cons
   for (std::size_t b = 0; b < problem.blocks.size(); ++b) {
     const Block& block = problem.blocks[b];
     Vector own = state.u.here().segment(block.first, block.size());
-    if (moves(block)) own -= block.kernel * algebra::least_squares(block.kernel, own);
+    if (moves(block)) own -= rigid_part(block, own);
     double& of_part = most[static_cast<std::size_t>(parts.of_block[b])];
     of_part = std::max(of_part, own.lpNorm<Eigen::Infinity>());
   }

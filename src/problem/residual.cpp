@@ -91,8 +91,7 @@ double greatest_ratio(const std::vector<double>& of_part, const Scale& scale) {
 
 /// ‖|K||w|‖, w the part of u in the block's kernel.
 double moved_forces(const Block& block, const Vector& u) {
-  const algebra::DenseMatrix& R = block.kernel;
-  return block.K.gross_times(R * algebra::least_squares(R, u)).stableNorm();
+  return block.K.gross_times(rigid_part(block, u)).stableNorm();
 }
 
 /// Greatest resultant of the forces on the block that is not balanced, relative to all of them (`gross`) at the longest lever.

@@ -111,6 +111,8 @@ SparseMatrix displacement(const Problem& problem, const SparseMatrix& motions) {
   return algebra::from_triplets(problem.unknowns(), motions.cols(), entries);
 }
 
+Vector rigid_part(const Block& block, const Vector& u) { return block.kernel * algebra::least_squares(block.kernel, u); }
+
 SparseMatrix unnoticed_displacements(const Problem& problem, const RigidMotions& rigid) {
   return algebra::orthonormal(displacement(problem, rigid.unnoticed));
 }

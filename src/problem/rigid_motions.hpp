@@ -51,6 +51,9 @@ std::string describe(const std::vector<BodyMotion>& motions, const algebra::Vect
 /// R α, the displacement of all unknowns under motions α (modes × any number of columns).
 algebra::SparseMatrix displacement(const Problem& problem, const algebra::SparseMatrix& motions);
 
+/// The part of a block's displacement in its kernel, R R⁺u.
+algebra::Vector rigid_part(const Block& block, const algebra::Vector& u);
+
 /// The motions that no row notices as displacements, orthonormal: unknowns × count.
 algebra::SparseMatrix unnoticed_displacements(const Problem& problem, const RigidMotions& rigid);
 

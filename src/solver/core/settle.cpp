@@ -95,13 +95,14 @@ double settle_on_springs(const problem::Problem& problem, double most, problem::
   const problem::FreeMotions free = problem::free_motions(problem, state, kOnBound, false);
   if (free.motions.cols() == 0) return 0;
   const problem::RigidMotions rigid = problem::rigid_motions(problem);
-  const DenseMatrix jump = DenseMatrix(rigid.N * free.motions).unaryExpr([](double moves) { return std::abs(moves) > problem::kNotAtAll ? moves : 0; }),
-                    moved = problem::displacement(problem, free.motions), held = jump.transpose() * springs.asDiagonal() * jump;
+  const SparseMatrix jump = SparseMatrix(rigid.N * free.motions).pruned(1, problem::kNotAtAll), moved = problem::displacement(problem, free.motions);
+  const DenseMatrix held = jump.transpose() * SparseMatrix(springs.asDiagonal() * jump);
   const Vector yields = held.diagonal().unaryExpr([](double k) { return k > 0 ? 1 / k : 0.0; });
   const Vector left = free.motions.transpose() * (rigid.e - rigid.N.transpose() * state.lambda);
   const Vector amounts = least_amounts(free, held, left);
-  const Vector gross = SparseMatrix(free.motions.cwiseAbs()).transpose() * rigid.e.cwiseAbs() + jump.cwiseAbs().transpose() * state.lambda.cwiseAbs();
-  const Vector by_rounding = gross.cwiseProduct(yields).cwiseProduct(moved.cwiseAbs().colwise().maxCoeff().transpose());
+  const Vector gross = SparseMatrix(free.motions.cwiseAbs()).transpose() * rigid.e.cwiseAbs() + SparseMatrix(jump.cwiseAbs()).transpose() * state.lambda.cwiseAbs();
+  Vector by_rounding = gross.cwiseProduct(yields);
+  for (Eigen::Index k = 0; k < moved.cols(); ++k) by_rounding[k] *= Vector(moved.col(k)).lpNorm<Eigen::Infinity>();
   const Vector u = state.u.here() + moved * amounts;
   const double lost = std::numeric_limits<double>::epsilon() * by_rounding.maxCoeff() / u.lpNorm<Eigen::Infinity>();
   if (!(lost <= most)) return lost;
