@@ -21,8 +21,7 @@ class Elements {
   const algebra::SparseMatrix& stiffness() const { return stiffness_; }  ///< int phi_i' phi_j'
   const algebra::Vector& unit_load() const { return unit_load_; }        ///< int phi_i
 
-  /// int phi_i (y/y0)^power dy: the power is in the weight of the quadrature of the first cell, so that
-  /// it may be any number above -1.
+  /// int phi_i (y/y0)^power dy. In the first cell the power is the weight of the quadrature, so that it may be any number above -1.
   algebra::Vector power_load(double power) const;
 
   double value(const algebra::Vector& u, double y) const;  ///< 0 <= y <= y0

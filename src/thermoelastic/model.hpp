@@ -96,7 +96,7 @@ struct Work {
 };
 
 /// The problem of a step on the unknowns at the supports and ends alone, w: minimise ½wᵀSw − gᵀw + the supports' energies.
-/// S is the same in every step; its kernel are the motions without strain.
+/// S is the same in every step. Its kernel consists of the motions without strain.
 class Interface {
  public:
   /// `parts`: those whose supports it is about; `gamma`: their unknowns w among all u; S: on these.

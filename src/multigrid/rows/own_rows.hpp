@@ -27,7 +27,7 @@ HalfRows all_rows(const Ranks& ranks, const HalfRows& own);
 /// Joins the ranks' functions of a coarser mesh, as if one rank had them all. Collective.
 OwnFunctions all_rows(const Ranks& ranks, const OwnFunctions& own);
 
-/// The numbers of the rows that all_rows() makes: their HalfRows::below, without its spare numbers, and their HalfRows::diagonal.
+/// The matrix entries of the rows that all_rows() makes: HalfRows::below without the kSpare numbers at its end, and HalfRows::diagonal.
 struct AllNumbers {
   std::vector<double> below, diagonal;
 };

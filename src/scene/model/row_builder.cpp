@@ -54,7 +54,7 @@ class SupportRowMaker {
       }
   }
 
-  /// Points of one and of two free tangents apart: a group's points have as many rows each.
+  /// Points with one free tangent and points with two make two groups, because all points of a group have the same number of rows.
   void friction() {
     const bool coulomb = support_.tangential.kind == Kind::coulomb;
     for (int components = 1; components < on_.dimension(); ++components) {

@@ -29,7 +29,7 @@ inline void replace(lua_State* L, std::initializer_list<Replacement> all) {
   }
 }
 
-// Calls what the running function was, in this very frame: its messages name the script's line.
+// Calls the function that the running one has replaced. No stack frame lies between, so that its error messages name the script's line.
 inline int original(lua_State* L) { return lua_tocfunction(L, lua_upvalueindex(1))(L); }
 
 // Patterns (guard_patterns); string.rep of nothing; table.move, insert and remove over any number of places; of debug what
