@@ -124,7 +124,7 @@ local kinds <const> = {
   { "the disk is full", "prlimit --pid $zero --fsize=4096" },
   { "full where a rank writes", a_rank .. "prlimit --pid $victim --fsize=4096" },
   { "killed while ranks start", "victim=$(echo $zero $workers | tr ' ' '\\n' | shuf -n 1); kill -9 $victim", early = true },
-  { "an exception on a rank", "rm -f ${out}_1.vtu; mkdir ${out}_1.vtu" }, -- a folder is where its file should be
+  { "an exception on a rank", "until mkdir ${out}_1.vtu; do rm -f ${out}_1.vtu; done" }, -- a folder is where its file should be, whatever is written meanwhile
 }
 -- How it is started, and the processes below $runner. By dotyk.ranks, rank 0's child is MPI's daemon, whose children are the other ranks. By mpirun, mpirun is the
 -- daemon; its children are all ranks in order.
