@@ -52,8 +52,9 @@ bool solved_by_zeros(const QuadraticProgram& p, const ActiveSet& settings, Resul
 
 /// Far away rounding hides that rows contradict one another: is there any feasible point?
 void doubt(const QuadraticProgram& p, const ActiveSet& settings, Monitor& monitor, Result& result) {
-  const bool violated = result.status == Status::solved && residuals(p, result.x, result.y).feasibility > kFeasible;
-  if (violated && solved_by_zeros(p, settings, result)) return;
+  const double violation = result.status == Status::solved ? residuals(p, result.x, result.y).feasibility : 0;
+  if (violation > settings.tol && solved_by_zeros(p, settings, result)) return;
+  const bool violated = violation > kFeasible;
   if (!violated && result.status != Status::unbounded) return;
   const QuadraticProgram nearest = nearest_point(p);
   ActiveSet one_by_one = settings;

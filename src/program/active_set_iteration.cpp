@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <unordered_set>
 
 #include "base/stopwatch.hpp"
@@ -207,12 +208,14 @@ class ActiveSetRun {
     const auto meeting = rows_.meeting(x_, s.p, cautious_, many());
     // Curvature along a kernel direction may be rounding; the proof does not look at it.
     const bool endless = !std::isfinite(whole) || (!s.consistent && objective_ && !elastic && proves_unbounded(p_, s.p));
+    const double length = std::min(whole, meeting.step);
+    // Further away rounding of x is no longer small beside the tolerance of rows: first it matters whether there is a feasible point at all.
+    const double farthest = 0.01 * settings_.tol / std::numeric_limits<double>::epsilon();
+    if (elastic && (!std::isfinite(length) || (objective_ && !s.consistent && length > farthest))) return heavier();
     if (endless && !std::isfinite(meeting.step)) {
-      if (elastic) return heavier();
       result_.direction = s.p;
       return finish(Status::unbounded, kFallsForEver);
     }
-    const double length = std::min(whole, meeting.step);
     x_ += length * s.p;
     if (length * peak(s.p) > still) forget();
     if (whole <= meeting.step) {

@@ -46,9 +46,14 @@ bool proves_infeasible(const QuadraticProgram& p, const Vector& y, double far) {
 }
 
 bool proves_unbounded(const QuadraticProgram& p, const Vector& d, double tolerance) {
+  constexpr double kCancelled = 1e-4;
   const double fall = -p.q.dot(d);
   if (!(fall > 1e-9 * p.q.lpNorm<Eigen::Infinity>() * d.lpNorm<1>())) return false;
-  if (!(times(p.P, d).lpNorm<Eigen::Infinity>() <= tolerance * fall)) return false;
+  const Vector resists = times(p.P, d).cwiseAbs(), terms = times(p.P.cwiseAbs(), d.cwiseAbs());
+  if (!(resists.lpNorm<Eigen::Infinity>() <= tolerance * fall)) return false;
+  // Little curvature beside others' is no rounding: the fall must be of unknowns whose own terms cancel.
+  const double free_fall = -(resists.array() <= kCancelled * terms.array()).select(p.q.cwiseProduct(d), 0.0).sum();
+  if (!(free_fall > fall / 2)) return false;
   const Vector a = p.A * d;
   for (int r = 0; r < p.rows(); ++r)
     if ((std::isfinite(p.high[r]) && a[r] > tolerance * fall) || (std::isfinite(p.low[r]) && a[r] < -tolerance * fall))

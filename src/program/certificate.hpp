@@ -10,7 +10,8 @@ namespace dotyk::program {
 bool proves_infeasible(const QuadraticProgram& program, const Vector& y, double far = 1e8);
 
 /// Does the objective fall for ever along d (n)? qᵀd < 0, Pd = 0, and Ad leaves no finite limit behind,
-/// each up to `tolerance` times −qᵀd in units of a well-scaled program.
+/// each up to `tolerance` times −qᵀd in units of a well-scaled program. Most of −qᵀd must come from unknowns j with (Pd)_j
+/// nothing beside (|P||d|)_j, whatever their units are.
 bool proves_unbounded(const QuadraticProgram& program, const Vector& d, double tolerance = 1e-8);
 
 inline constexpr const char* kFallsForEver = "the objective falls for ever along a direction that meets no row";

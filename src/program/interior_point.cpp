@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "base/stopwatch.hpp"
 #include "base/text.hpp"
@@ -17,12 +18,12 @@ namespace {
 
 /// Residual at which iterates that do not get better are still taken for the solution, relative to `tol`.
 constexpr double kEnough = 100;
-/// Unknowns and rows up to which active sets end it: exactly, in next to no time.
-constexpr int kEndsExactly = 200;
 /// Iterations without a better one before it is called so.
 constexpr int kPatience = 15;
-/// The same where all that is asked for yet is `fine`.
-constexpr int kFinerPatience = 3;
+/// Iterates that grow by this go to infinity, which proves why there is no better one once they are far enough.
+constexpr double kGrows = 1.5;
+/// The same where residuals and gap are small enough.
+constexpr int kFinerPatience = 2;
 
 /// Least regularisation of the KKT matrix, in units of a scaled program.
 constexpr double kBarrierRegularisation = 1e-12;
@@ -63,7 +64,14 @@ class ProgramBarrier final : public Barrier {
     primal_ = std::max(peak(rp_), peak(rs_));
     // Residuals count by what they may change of the objective, too: multipliers can be huge.
     gap_ = complementary_ + std::abs(rd_.dot(at_.x)) + rp_.cwiseAbs().dot(at_.y.cwiseAbs()) + rs_.cwiseAbs().dot(at_.z);
-    gap_ /= 1 + std::abs(0.5 * at_.x.dot(Px) + p_.q.dot(at_.x));
+    energy_ = 0.5 * at_.x.dot(Px) + p_.q.dot(at_.x);
+    gap_ /= 1 + std::abs(energy_);
+  }
+
+  /// Is in every pair one of s and z as small as `tol`? Their product is an energy, whatever the units: a gap of `tol` alone leaves unknowns off by
+  /// its root.
+  bool decided_to(double tol) const {
+    return at_.s.size() == 0 || at_.s.cwiseProduct(at_.z).maxCoeff() <= tol * tol * (1 + std::abs(energy_));
   }
 
   /// The largest of the residuals, relative, and of the gap.
@@ -117,7 +125,7 @@ class ProgramBarrier final : public Barrier {
   Kkt kkt_;
   std::vector<char> taken_;
   Vector theta_inverse_, rd_, rp_;  ///< rd_, rp_: residuals of stationarity and of Ax = w
-  double regular_ = 0, primal_ = 0, gap_ = 0, size_b_ = 0;
+  double regular_ = 0, primal_ = 0, gap_ = 0, energy_ = 0, size_b_ = 0;
 };
 
 /// Iterates that go to infinity show a direction that proves why.
@@ -142,24 +150,24 @@ Result run(const QuadraticProgram& p, const InteriorPoint& settings, double far,
   Stopwatch clock;
   ProgramBarrier barrier(p, far);
   Barrier::Point best = barrier.point();
-  double least = INFINITY;
+  double least = INFINITY, size = INFINITY;
   int since_best = 0;
   result.reason = text("no end within ", settings.max_iterations, " iterations");
   for (int k = done; k < settings.max_iterations; ++k) {
     barrier.evaluate();
     const double merit = barrier.merit();
+    const double last = std::exchange(size, std::max(peak(barrier.point().x), peak(barrier.point().y)));
     if (merit < least) {
       least = merit, best = barrier.point();
       since_best = 0;
-    } else if (++since_best > kPatience) {
-      result.reason = text("the residual has stopped falling at ", least);
+    } else if (size <= kGrows * last && ++since_best > (least <= settings.tol ? kFinerPatience : kPatience)) {
+      if (least <= kEnough * settings.tol) result.end(Status::solved, text("residuals and gap have stopped falling at ", least));
+      else result.reason = text("the residual has stopped falling at ", least);
       break;
     }
     result.iterations = k + 1;
     monitor.iteration({.iteration = k + 1, .residual = merit, .seconds = clock.seconds()});
-    const bool within = least <= settings.tol;
-    if (within && settings.fine && since_best >= kFinerPatience) break;  // as fine as it gets
-    if (merit <= settings.tol && (!settings.fine || settings.fine(barrier.point().x, barrier.point().y))) {
+    if (merit <= settings.tol && barrier.decided_to(settings.tol) && (!settings.fine || settings.fine(barrier.point().x, barrier.point().y))) {
       best = barrier.point();
       result.end(Status::solved, text("residuals and gap are below ", settings.tol));
       break;
@@ -174,8 +182,6 @@ Result run(const QuadraticProgram& p, const InteriorPoint& settings, double far,
       break;
     }
   }
-  if (result.status == Status::stopped && least <= kEnough * settings.tol)
-    result.end(Status::solved, text("residuals and gap have stopped falling at ", least));
   // Rows without an interior (an equality that another implies as an inequality) have multipliers without bound. What
   // rounding of Aᵀy leaves of stationarity, in the measure of the merit:
   const double terms = peak(p.A.cwiseAbs().transpose() * best.y.cwiseAbs());
@@ -203,7 +209,7 @@ Result attempt(const Scaled& scaled, const InteriorPoint& settings, Monitor& mon
     inner.fine = nullptr;
     const Result nearest = run(nearest_point(scaled.program), inner, 30, result.iterations, monitor);
     result.iterations = nearest.iterations;
-    if (nearest.status == Status::infeasible) result.end(nearest.status, nearest.reason, nearest.direction);
+    if (nearest.status != Status::solved) result.end(nearest.status, nearest.reason, nearest.direction);
   }
   scaled.take_back(result);
   return result;
@@ -251,8 +257,7 @@ Result solve(const QuadraticProgram& program, const InteriorPoint& settings, Mon
       }
       hidden = off(result, Rounding::of_greatest) > kHidden;
     }
-    const bool few = !settings.fine && !monitor.stop() && program.unknowns() + program.rows() <= kEndsExactly;
-    if (hidden || (few && (result.status == Status::solved || result.status == Status::stopped))) result = by_active_sets(program, result, monitor);
+    if (hidden) result = by_active_sets(program, result, monitor);
     if (hidden && off(result, Rounding::of_greatest) > kHidden) result.end(Status::stopped, kHiddenReason);
   }
   measure(program, result);

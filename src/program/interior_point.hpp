@@ -15,7 +15,8 @@ struct InteriorPoint {
 };
 
 /// Mehrotra's predictor–corrector method (1992) for convex quadratic programs, infeasible start, one
-/// step length for all unknowns, sparse quasidefinite KKT systems with refinement. Result: `working`
+/// step length for all unknowns, sparse quasidefinite KKT systems with refinement. At the end residuals and gap are below tol,
+/// and in every pair of a slack and a multiplier their product below tol², so that unknowns are right to tol as well. Result: `working`
 /// holds the prediction of the active set (multiplier above slack). Infeasible and unbounded programs
 /// are told by the direction in which the iterates diverge. Throws InputError as check() does.
 Result solve(const QuadraticProgram& program, const InteriorPoint& settings, Monitor& monitor);

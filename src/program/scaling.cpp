@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/moderate.hpp"
 
@@ -45,17 +46,32 @@ Scaled scale(const QuadraticProgram& p) {
     visit_entries(t.P, [&](auto i, auto j, double& value) { value = value * s.cost * s.column[j] * s.column[i]; });
     visit_entries(t.A, [&](auto i, auto j, double& value) { value = value * s.row[i] * s.column[j]; });
   };
+  const auto is_bound = [&](Eigen::Index row) { return p.A.outerIndexPtr()[row + 1] - p.A.outerIndexPtr()[row] == 1; };
   const auto raise = [](double& most, double value) { most = std::max(most, std::abs(value)); };
   apply();
   for (int round = 0; round < 10; ++round) {
     Vector columns = Vector::Zero(n), rows = Vector::Zero(m);
     visit_entries(t.P, [&](auto i, auto j, double value) { raise(columns[i], value), raise(columns[j], value); });
-    visit_entries(t.A, [&](auto i, auto j, double value) { raise(rows[i], value), raise(columns[j], value); });
+    visit_entries(t.A, [&](auto i, auto j, double value) {
+      raise(rows[i], value);
+      if (!is_bound(i)) raise(columns[j], value);
+    });
+    for (int j = 0; j < n; ++j)
+      if (columns[j] == 0) columns[j] = std::abs(s.cost * p.q[j] * s.column[j]);
     divide(s.column, columns);
     divide(s.row, rows);
+    if (peak(t.P) > 0) s.cost /= std::sqrt(peak(t.P));
     apply();
   }
   t.q = s.cost * p.q.cwiseProduct(s.column);
+  const Vector curvature = t.P.diagonal();
+  const double rounding = std::numeric_limits<double>::epsilon() * peak(t.P);
+  double unit = 0;
+  for (int j = 0; j < n; ++j)
+    if (curvature[j] > rounding) unit = std::max(unit, std::abs(t.q[j]) / std::sqrt(curvature[j]));
+  for (int i = 0; i < m; ++i) unit = std::max({unit, s.row[i] * p.low[i], -s.row[i] * p.high[i]});
+  if (!(unit > 0) || !std::isfinite(unit)) unit = 1;
+  s.column *= unit, s.row /= unit, s.cost /= unit * unit, t.q /= unit;
   for (int i = 0; i < m; ++i) t.low[i] *= s.row[i], t.high[i] *= s.row[i];
   const double size = std::max(peak(t.q), peak(t.P)), rest = size > 0 ? 1 / size : 1;
   t.P *= rest;

@@ -22,8 +22,9 @@ struct Scaled {
 double objective_unit(const QuadraticProgram& program);
 
 /// Ruiz's equilibration (2001) of the KKT matrix [P Aᵀ; A 0]: ten times every row and column is
-/// divided by the root of its largest entry; then the objective is divided by its gradient's size. Before that, by its unit: what
-/// is beyond all rows' size would make them nothing.
+/// divided by the root of its largest entry, P besides by the root of its own. A row of one unknown takes whatever unit that has, and has
+/// no say in it. Then x is measured by what drives it: q where P resists, by the root of the energy that comes of it, and limits that 0
+/// violates; the objective by its gradient's size.
 Scaled scale(const QuadraticProgram& program);
 
 /// In units of which programs that differ in the units of their unknowns, rows and objective are the same: P has the diagonal 1, q the greatest entry 1, and

@@ -68,6 +68,35 @@ TEST_CASE("unbounded programs are found, with the direction") {
   }
 }
 
+TEST_CASE("programs without a point are infeasible after few iterations, although their objective falls for ever along a direction that meets no row") {
+  Random random(315);
+  Monitor quiet;
+  const auto check = [&](const DenseMatrix& P, const Vector& q, const DenseMatrix& A, const program::QuadraticProgram& limits) {
+    const auto p = test::quadratic(P, q, A, limits.low, limits.high);
+    for (const auto& r : {program::solve(p, test::one(), quiet), program::solve(p, test::many(), quiet),
+                          program::solve(p, program::InteriorPoint{}, quiet)}) {
+      INFO(r.reason);
+      REQUIRE(r.status == Status::infeasible);
+      CHECK(program::proves_infeasible(p, r.direction, 1e6));
+      CHECK(r.iterations < 60 + 10 * p.rows());
+    }
+  };
+  for (int trial = 0; trial < 120; ++trial) {
+    // Beside an unknown that nothing holds; then in other coordinates.
+    const int n = trial % 10 == 9 ? 20 : 1 + trial % 8, m = n == 20 ? 60 : 3 + trial % 5;
+    const auto p = n == 1 ? test::quadratic(DenseMatrix::Constant(1, 1, trial % 3), Vector::Zero(1), DenseMatrix::Ones(2, 1), Vector{{1, -INFINITY}}, Vector{{INFINITY, 0}})
+                          : make(random, Kind::contradictory, n, m, trial % (n + 1));
+    DenseMatrix P = DenseMatrix::Zero(n + 1, n + 1), A = DenseMatrix::Zero(p.rows(), n + 1);
+    P.topLeftCorner(n, n) = test::full(p.P), A.leftCols(n) = p.A;
+    Vector q(n + 1);
+    q << p.q, random.coin() ? -1 : 1;
+    const DenseMatrix turned = random.matrix(n + 1, n + 1);
+    INFO(trial);
+    check(P, q, A, p);
+    check(turned.transpose() * P * turned, turned.transpose() * q, A * turned, p);
+  }
+}
+
 TEST_CASE("the methods agree on programs of unknown kind") {
   Random random(313);
   Monitor quiet;

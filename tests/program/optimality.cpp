@@ -147,6 +147,57 @@ TEST_CASE("unknowns in other units, 1e-8 to 1e8 of them, are the same unknowns")
   }
 }
 
+TEST_CASE("the units of unknowns, rows and objective, 1e-6 to 1e6, do not matter where P is singular either") {
+  Random random(308);
+  Monitor quiet;
+  const auto unit = [&] { return std::pow(10.0, random.between(-6, 6)); };
+  for (int trial = 0; trial < 100; ++trial) {
+    // Of x ≥ 0 and general rows as many hold, with multipliers, as P is short of rank: x is the only solution.
+    const int n = 2 + trial % 6, rank = trial % n, general = n / 2, held = n - rank;
+    DenseMatrix A(n + general, n);
+    A << DenseMatrix::Identity(n, n), random.matrix(general, n);
+    Vector x = random.vector(n).cwiseAbs().array() + 0.2, low = Vector::Zero(n + general), y = low;
+    for (int j = 0; j < held; ++j) x[j] = 0, y[j] = -random.between(0.2, 1);
+    low.tail(general) = A.bottomRows(general) * x;
+    for (int r = n; r < n + general; ++r) low[r] -= random.between(0.2, 1);
+    const DenseMatrix F = random.matrix(rank, n), P = F.transpose() * F;
+    const Vector q = -P * x - A.transpose() * y;
+    Vector column(n), row(n + general);
+    for (double& u : column) u = unit();
+    for (double& u : row) u = unit();
+    row.head(n) = column.cwiseInverse();
+    const double objective = unit();
+    const auto p = test::quadratic(objective * column.asDiagonal() * P * column.asDiagonal(), objective * column.cwiseProduct(q),
+                                   row.asDiagonal() * A * column.asDiagonal(), row.cwiseProduct(low), Vector::Constant(n + general, INFINITY));
+    for (const auto& r : {program::solve(p, test::one(), quiet), program::solve(p, test::many(), quiet),
+                          program::solve(p, program::InteriorPoint{}, quiet)}) {
+      INFO(trial << ": " << r.reason);
+      REQUIRE(r.status == program::Status::solved);
+      CHECK((r.x.cwiseProduct(column) - x).norm() <= 1e-7 * (1 + x.norm()));
+    }
+  }
+}
+
+TEST_CASE("an interior point method's unknowns are right to tol as well, not only their energy") {
+  Random random(309);
+  Monitor quiet;
+  const int n = 130;
+  for (int trial = 0; trial < 3; ++trial) {
+    DenseMatrix F = DenseMatrix::Identity(n, n);
+    for (int k = 0; k < 6 * n; ++k) F(random.below(n), random.below(n)) = random.between(-1, 1);
+    Vector x(n), y(n);
+    for (int j = 0; j < n; ++j) {
+      const bool held = random.coin();
+      x[j] = held ? 0 : random.between(0.3, 2), y[j] = held ? -random.between(0.2, 1) : 0;
+    }
+    const DenseMatrix P = F * F.transpose();
+    const auto p = test::quadratic(P, -P * x - y, DenseMatrix::Identity(n, n), Vector::Zero(n), Vector::Constant(n, INFINITY));
+    const auto r = program::solve(p, program::InteriorPoint{}, quiet);
+    REQUIRE(r.status == program::Status::solved);
+    CHECK((r.x - x).lpNorm<Eigen::Infinity>() < 1e-9);
+  }
+}
+
 TEST_CASE("an unknown whose energy is nothing beside another's is found as well") {
   Monitor quiet;
   for (const double great : {1e6, 1e12}) {

@@ -28,7 +28,6 @@ PrimalProgram::PrimalProgram(const Problem& problem, const problem::RigidMotions
     for (const Block& block : problem.blocks) program_.q.segment(block.first, block.size()) = -block.f;
     take_rows(problem.B);
   }
-  rescale();
 }
 
 /// Fills P and q by the blocks condensed; returns B on their unknowns.
@@ -81,35 +80,18 @@ void PrimalProgram::take_rows(const SparseRows& B) {
   program_.high = problem_.c(rows_);
 }
 
-/// The tolerances of programs are beside 1. What drives the solution, forces and rows that zero violates,
-/// makes the unit, each turned into the root of an energy by the stiffness on the diagonal.
-void PrimalProgram::rescale() {
-  const Vector stiffness = program_.P.diagonal(), compliance = program::row_compliance(program_);
-  double unit = 0;
-  for (int j = 0; j < program_.unknowns(); ++j)
-    if (stiffness[j] > 0) unit = std::max(unit, std::abs(program_.q[j]) / std::sqrt(stiffness[j]));
-  for (int r = 0; r < program_.rows(); ++r) {
-    const double violation = std::max(-program_.high[r], program_.low[r]);
-    if (violation > 0 && compliance[r] > 0) unit = std::max(unit, violation / std::sqrt(compliance[r]));
-  }
-  if (unit > 0 && std::isfinite(unit)) unit_ = unit;
-  program_.q /= unit_;
-  program_.low /= unit_;
-  program_.high /= unit_;
-}
-
 problem::State PrimalProgram::state(const Vector& x, const Vector& y) const {
-  Vector u = unit_ * x;
+  Vector u = x;
   if (!condensed_.empty()) u.resize(problem_.unknowns());
   Eigen::Index first = 0;
   for (std::size_t b = 0; b < condensed_.size(); ++b) {
     const Eigen::Index size = condensed_[b].load.size();
-    u.segment(problem_.blocks[b].first, problem_.blocks[b].size()) = condensed_[b].condensation.recover(unit_ * x.segment(first, size));
+    u.segment(problem_.blocks[b].first, problem_.blocks[b].size()) = condensed_[b].condensation.recover(x.segment(first, size));
     first += size;
   }
   problem::State state{problem::least(unnoticed_, std::move(u)), {}};
   state.lambda = spring_.cwiseProduct(problem::jumps(problem_, state.u));
-  state.lambda(rows_) = unit_ * y;
+  state.lambda(rows_) = y;
   return state;
 }
 

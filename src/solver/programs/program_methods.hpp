@@ -46,7 +46,6 @@ class PrimalProgram {
   PrimalProgram(const problem::Problem& problem, const problem::RigidMotions& rigid, const std::string& method,
                 bool reduced, algebra::Ordering ordering, problem::Clock& clock, Monitor& monitor);
 
-  /// In units in which the solution is of size 1.
   const program::QuadraticProgram& program() const { return program_; }
   /// The row of the problem behind each row of the program.
   const std::vector<int>& rows() const { return rows_; }
@@ -58,7 +57,6 @@ class PrimalProgram {
  private:
   algebra::SparseRows condense(algebra::Ordering ordering, problem::Clock& clock, Monitor& monitor);
   void take_rows(const algebra::SparseRows& B);
-  void rescale();
 
   const problem::Problem& problem_;
   program::QuadraticProgram program_;
@@ -66,7 +64,6 @@ class PrimalProgram {
   std::vector<int> rows_;
   algebra::Vector spring_;  ///< k_r, one a row of the problem; 0 of the others
   algebra::SparseMatrix unnoticed_;
-  double unit_ = 1;  ///< u = unit_ x, λ = unit_ y
 };
 
 }  // namespace dotyk::solver
