@@ -58,6 +58,16 @@ for _, case in ipairs{ { 1.45, 1, "max", "min" }, { 1.55, 1, "max", "min", "abov
   check.equal(b.beyond, { case[5] }, "triangles")
   check.near({ svgs.number(b.text:match(case[3] .. " ([^|]+)")), svgs.number(b.text:match(case[4] .. " ([^|]+)")) }, { sense * (0.1 + h), sense * least }, 0.0006) -- three digits
 end
+-- A peak as high over as small a part that is no single point does not: what lies between it and its neighbours is known.
+local hill <const> = rectangle({ 0, 0 }, { 1, 1 }, { 60, 60 })
+hill:part "bottom":displace{ x = 0, y = 0.1 }
+hill:part "top":displace{ x = 0, y = function(x) return 0.1 + 0.08 * math.max(0, 1 - (24 * (x - 0.5))^2) end }
+local raised <const> = solved(hill)
+local top <const>, above = svgs.bar(drawn(raised, { field = "uy", deform = 0 })), 0
+for i = 0, 60 do for j = 0, 60 do above = above + (select(2, raised:displacement(hill, i / 60, j / 60)) > 0.18 / 1.5 and 1 or 0) end end
+check.that(above < 0.01 * 61^2, above .. " nodes: not a peak that colours would leave out")
+check.near(top.high, 0.18, 0.002)
+check.equal(top.beyond, {}, "triangles")
 -- 3. At 85 mm at least four numbers on an axis where there is room, three on a bar.
 for _, case in ipairs{ { 0, 0, 1, 1 }, { 0, 0, 3, 1 }, { 0, 0, 2, 4 }, { -1, -0.5, 0.2, 0.7 }, { 1000, 0, 1003, 2 }, { 0, 0, 5e-4, 3e-4 }, { 0, 0, 1.1e5, 1e5 } } do
   local body <const>, numbers <const>, widest = rectangle({ case[1], case[2] }, { case[3], case[4] }, { 4, 4 }), {}, 0
@@ -212,4 +222,15 @@ has(drawn(solid, { field = "none", units = units }), "x %[mm%]", "y %[mm%]")
 arrows(drawn(rubbed, { field = "none", window = { 1.25, -0.3, 1.8, 0.3 } }))
 check.equal(hidden, 0, "heads of arrows below markers")
 check.that(not drawn(flat, { field = "uy", deform = 0 }).text:find "max [^|]* × 10", "rounding as a value")
+-- 12. A pressure at the edge of a punch has no bound, and the picture says so; that of a block on a floor has one. Thousands of Pa are kPa.
+local pressed <const> = rectangle({ -1, -1 }, { 1, 0 }, { 16, 8 })
+pressed:part "bottom":fix()
+local punch <const> = { pressed:part("under", function(x, _, _, ny) return ny > 0.9 and math.abs(x) < 0.5 end), rigid = dotyk.rigid.gap{ normal = { 0, 1 }, gap = -0.02 } }
+svg = drawn(solved(pressed, punch), { field = "von_mises", units = { stress = "Pa" }, size = { 600, 450 } })
+has(svg, "max [%d.]+ Pa, singular at an edge")
+check.that(not drawn(flat, {}).text:find "singular", "no edge presses there")
+local bar <const> = dotyk.body{ name = "bar", material = dotyk.material{ E = 1e12, nu = 0 }, mesh = dotyk.mesh.rectangle{ from = { 0, 0 }, to = { 2, 1 }, cells = { 4, 2 } } }
+bar:part "left":fix()
+bar:part "right":load(function(_, y) return 2e5 * (1 + y), 0 end)
+has(drawn(solved(bar), { field = "xx", deform = 0, loads = true, units = { stress = "Pa", load = "Pa" } }), "stress xx %[kPa%]", "load, at most [%d.]+ kPa")
 os.remove "rules.svg"

@@ -156,6 +156,24 @@ TEST_CASE("arrows of the shear are alike on both sides, have the greatest, and t
   CHECK(longest == doctest::Approx(per_pressure * most).epsilon(1e-3));
 }
 
+TEST_CASE("arrows of the shear stay between the ends of the contact line") {
+  auto block = rectangle({0, 0}, {4, 1}, 20, 5);
+  auto top = scene::named_part(block, "top");
+  scene::load(top, [](const mesh::Point& x) { return mesh::Point{-0.3 * x[0], -1 - x[0], 0}; });
+  const auto s = scene::make_scene({block});
+  const scene::Friction friction{scene::Friction::Kind::coulomb, [](const mesh::Point&) { return 0.5; }};
+  scene::add_contact(*s, scene::named_part(block, "bottom"), contact::RigidPlane{{0, 0, 0}, {0, 1, 0}}, {}, false, friction);
+  const ScenePicture picture = picture_of(*solved(s), 1);
+  const auto [left, right] = std::ranges::minmax(picture.contacts[0].nodes, {}, [](const ContactNode& n) { return drawn(n, 1)[0]; });
+  const std::vector<DataMark> arrows = of(marks(picture), "shear");
+  CHECK(std::ranges::any_of(arrows, [&](const DataMark& arrow) { return std::abs(arrow.at[0][0] - drawn(right, 1)[0]) < 1e-6; }));  // it was half beyond
+  for (const DataMark& arrow : arrows)
+    for (const Place& end : arrow.at) {
+      CHECK(end[0] > drawn(left, 1)[0] - 1e-6);
+      CHECK(end[0] < drawn(right, 1)[0] + 1e-6);
+    }
+}
+
 TEST_CASE("a shear that is nothing beside the pressure has no arrow") {
   auto block = rectangle({0, 0}, {1, 1}, 8, 8);
   const auto s = scene::make_scene({block});
@@ -348,6 +366,76 @@ TEST_CASE("a guide of a slope stands beside the curve that has it") {
     CHECK(std::log(top[1] / bottom[1]) / std::log(right[0] / left[0]) == doctest::Approx(k == 0 ? 1 : 1.5).epsilon(0.01));
     CHECK(off(k == 0 ? high : low, guides[k]) < off(k == 0 ? low : high, guides[k]));
   }
+}
+
+TEST_CASE("ordinates of a plate's edge are as long as its reactions are great, and point supports stand where they are") {
+  PlatePicture p;
+  p.file = "plan.png", p.view = PlateView::plan;
+  p.points = {0, 0, 1, 0, 1, 1, 0, 1};
+  p.triangles = {0, 1, 2, 0, 2, 3};
+  p.deflection.assign(4, 0);
+  const auto reaction = [](double x) { return 3 * x - 1; };
+  for (int k = 0; k < 20; ++k) {
+    PlateEdge e{{k / 20.0, 0}, {(k + 1) / 20.0, 0}, PlateSupport::held, false, {}};
+    for (const double share : {0.0, 1.0}) {
+      EdgeSample& s = e.samples.emplace_back();
+      s.share = share, s.reaction = reaction((k + share) / 20);
+    }
+    p.boundary.push_back(e);
+  }
+  const Place corners[4] = {{1, 0}, {1, 1}, {0, 1}, {0, 0}};
+  EdgeSample begin, end;
+  end.share = 1;
+  for (int k = 0; k < 3; ++k) p.boundary.push_back({corners[k], corners[k + 1], PlateSupport::free, false, {begin, end}});
+  p.supports = {{0.25, 0.75, 0, PlateSupport::held, std::nullopt}};
+  p.forces = {{0.25, 0.75, -2}};
+  const std::vector<DataMark> all = marks(p), up = of(all, "pushing", 2), down = of(all, "pulling", 2);
+  REQUIRE(up.size() >= 3);
+  REQUIRE(down.size() >= 2);
+  const DataMark& most = *std::ranges::max_element(up, {}, size_of);
+  const double scale = size_of(most) / reaction(most.at[0][0]);
+  for (const auto* side : {&up, &down})
+    for (const DataMark& o : *side) {
+      CHECK(size_of(o) == doctest::Approx(scale * std::abs(reaction(o.at[0][0]))).epsilon(1e-3).scale(0.1));
+      CHECK((reaction(o.at[0][0]) > -1e-9) == (side == &up));
+      CHECK(o.at[1][1] <= o.at[0][1]);  // outside the lower edge
+    }
+  REQUIRE(of(all, "point support").size() == 1);
+  CHECK(apart(of(all, "point support")[0].at[0], {0.25, 0.75}) < 1e-6);
+  REQUIRE(of(all, "pulling", 1).size() == 1);
+  CHECK(apart(of(all, "pulling", 1)[0].at[0], {0.25, 0.75}) < 1e-6);
+}
+
+TEST_CASE("curves of charts and beams go through what was given") {
+  ChartPicture chart;
+  chart.file = "curve.png", chart.log_y = true;
+  SeriesPicture s;
+  s.name = "decay";
+  for (int k = 0; k <= 10; ++k) s.x.push_back(k), s.y.push_back(std::exp(-k));
+  chart.series = {s};
+  const std::vector<DataMark> drawn_markers = of(marks(chart), "markers: decay"), drawn_curve = of(marks(chart), "curve: decay");
+  REQUIRE(drawn_markers.size() == 1);
+  REQUIRE(drawn_markers[0].at.size() == s.x.size());
+  REQUIRE(drawn_curve.size() == 1);
+  for (std::size_t k = 0; k < s.x.size(); ++k) {
+    CHECK(drawn_markers[0].at[k][0] == doctest::Approx(s.x[k]).scale(1));
+    CHECK(drawn_markers[0].at[k][1] == doctest::Approx(s.y[k]));
+  }
+  for (const Place& p : drawn_curve[0].at) CHECK(std::log(p[1]) == doctest::Approx(-p[0]).scale(1));
+  beam::Beam b;
+  b.cells = 8;
+  b.supports = {{"left", 0, test::kHeld, test::kHeld}};
+  b.loads = {{1, -1, 0}};
+  Monitor quiet;
+  const auto solution = beam::solve(b, {}, quiet)[0].solution;
+  PagePicture page = compose(view(*solution), {BeamPanel::deflection, BeamPanel::moment}, {});
+  page.file = "beam.png";
+  const std::vector<DataMark> all = marks(page), line = of(all, "beam"), moment = of(all, "curve");
+  REQUIRE(line.size() == 1);
+  for (const Place& p : line[0].at) CHECK(p[1] == doctest::Approx(solution->deflection(std::clamp(p[0], 0.0, 1.0))).scale(0.1));
+  REQUIRE(moment.size() == 1);
+  for (const Place& p : moment[0].at)
+    if (p[0] > 1e-9) CHECK(std::abs(p[1]) == doctest::Approx(1 - p[0]).scale(1));
 }
 
 }  // namespace read_back

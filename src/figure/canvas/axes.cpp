@@ -235,9 +235,16 @@ std::string scaled_number(double value, int exponent, int digits) {
   return size < 1e3 ? number(scaled, digits) : fixed(scaled, 0);
 }
 
+std::string scaled_unit(const std::string& unit, int exponent) {
+  if (exponent == 0) return unit;
+  const bool takes = unit == "N" || unit.starts_with("Pa") || unit.starts_with("N/") || unit.starts_with("N·");
+  return takes && exponent % 3 == 0 && exponent > 0 && exponent <= 9 ? " kMG"[exponent / 3] + unit : power_of_ten(exponent) + (unit.empty() ? "" : " " + unit);
+}
+
 std::string at_most(const std::string& what, double value, const std::string& unit) {
   const int exponent = value >= plain_below ? exponent_of(value) : 0;
-  return what + ", at most " + scaled_number(value, exponent) + (exponent ? " × " + power_of_ten(exponent) : "") + (unit.empty() ? "" : " " + unit);
+  const std::string words = scaled_unit(unit, exponent);
+  return what + ", at most " + scaled_number(value, exponent) + (words.empty() ? "" : (words.starts_with("10") ? " × " : " ") + words);
 }
 
 Ticks linear_ticks(double low, double high, int wanted, double plain) {

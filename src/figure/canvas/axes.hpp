@@ -43,7 +43,10 @@ std::string number(double value, int digits = 3);
 // power of ten; what is nearer to zero than 0.001 is said to be so.
 std::string scaled_number(double value, int exponent, int digits = 3);
 
-// "load, at most 12.3 × 10⁶ N". It has a power of ten if an axis up to this value has one.
+// "kPa" of 10³ Pa; of units that have no prefixes here "10³ mm".
+std::string scaled_unit(const std::string& unit, int exponent);
+
+// "load, at most 12.3 MN". It has a power of ten if an axis up to this value has one.
 std::string at_most(const std::string& what, double value, const std::string& unit);
 
 inline constexpr Colour reference_grey{90, 90, 90};
@@ -84,6 +87,11 @@ struct Axes {
   std::optional<Point> pole = {};  // of polar axes: x is an angle in degrees, and y counts pixels from here
   Point at(double x_value, double y_value) const;
   std::array<double, 2> values(Point p) const { return {x.value(p.x), y.value(p.y)}; }
+  std::vector<std::array<double, 2>> values(const std::vector<Point>& points) const {
+    std::vector<std::array<double, 2>> out;
+    for (const Point& p : points) out.push_back(values(p));
+    return out;
+  }
   // A line through points of these coordinates, in pixels.
   std::vector<Point> line(const std::vector<double>& x_values, const std::vector<double>& y_values) const {
     std::vector<Point> out;

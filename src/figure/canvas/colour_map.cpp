@@ -24,10 +24,9 @@ Colour mix(const Anchors& anchors, double t) {
   return {blend(a.r, b.r), blend(a.g, b.g), blend(a.b, b.b)};
 }
 
-// "stress [MPa]", "stress [10⁶ Pa]": the power of ten stands with the unit.
+// "stress [MPa]", "slip [10⁶ mm]": the power of ten stands with the unit.
 std::string label(const FieldLabel& field, int exponent) {
-  std::string unit = exponent ? (field.unit.empty() ? "× " : "") + power_of_ten(exponent) : "";
-  if (!field.unit.empty()) unit += (unit.empty() ? "" : " ") + field.unit;
+  const std::string unit = (exponent && field.unit.empty() ? "× " : "") + scaled_unit(field.unit, exponent);
   return unit.empty() ? field.name : field.name + " [" + unit + "]";
 }
 
@@ -80,6 +79,23 @@ std::string extreme(const char* name, double value, const ColourScale& scale, co
   return std::string(name) + " " + scaled_number(value, ticks.exponent, digits);
 }
 
+// Whether the extreme is at a singular point: no node that shares a cell with it has nearly as much. True of values that are not at nodes.
+bool is_singular(const ScenePicture& p, double extreme) {
+  constexpr double kNearly = 0.8;
+  double nearest = 0;
+  for (const BodyPicture& body : p.bodies) {
+    const auto& cells = body.dimension == 2 ? body.cells : body.facets;
+    const std::size_t corners = body.dimension == 2 ? nodes_per_cell(body.shape, 1) : body.nodes_per_facet;
+    for (std::size_t c = 0; c < cells.size() && !body.values.empty(); c += corners) {
+      const std::span cell(cells.data() + c, corners);
+      if (std::ranges::none_of(cell, [&](int n) { return body.values[n] == extreme; })) continue;
+      for (const int n : cell)
+        if (body.values[n] != extreme) nearest = std::max(nearest, body.values[n] / extreme);
+    }
+  }
+  return nearest < kNearly;
+}
+
 }  // namespace
 
 void leave_out_peaks(ColourScale& scale, std::vector<double> values) {
@@ -124,8 +140,13 @@ ColourScale colour_scale(const ScenePicture& p, const std::optional<Box>& window
   if (std::abs(part.least) < kRounding * part.greatest) part.least = 0;
   if (std::abs(part.greatest) < -kRounding * part.least) part.greatest = 0;
   scale.least = scale.low = part.least, scale.greatest = scale.high = part.greatest;
-  if (p.field_range) scale.low = (*p.field_range)[0], scale.high = (*p.field_range)[1];
-  else leave_out_peaks(scale, values_of(p, window));
+  if (p.field_range) {
+    scale.low = (*p.field_range)[0], scale.high = (*p.field_range)[1];
+  } else {
+    leave_out_peaks(scale, values_of(p, window));
+    for (const auto& [end, extreme] : {std::pair{&scale.low, part.least}, std::pair{&scale.high, part.greatest}})
+      if (*end != extreme && !is_singular(p, extreme)) *end = extreme;
+  }
   constexpr double kNearZero = 0.5;
   if (!p.field_range && !p.field_signed && scale.low > 0 && scale.low < kNearZero * scale.high) scale.low = 0;
   // A field without sign may dip below zero by rounding, or by recovery.

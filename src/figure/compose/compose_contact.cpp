@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <ranges>
+#include <set>
 #include <tuple>
 
 #include "figure/canvas/geometry.hpp"
@@ -162,6 +163,21 @@ void cover(const Solution& s, const std::vector<std::pair<const Contact*, std::s
       }
 }
 
+/// Finds the nodes where facets beside the part go on as those of the part do.
+void find_sharp(const Contact& contact, ContactPicture& picture) {
+  constexpr double kSmooth = 0.9;  // least cosine
+  const mesh::Mesh& mesh = *contact.first.body->mesh;
+  const std::set<mesh::Facet> part(contact.first.facets.begin(), contact.first.facets.end());
+  std::multimap<int, ContactNode*> nodes;
+  for (std::size_t k = 0; k < picture.nodes.size(); ++k) nodes.emplace(contact.rows[k].node, &picture.nodes[k]);
+  for (const mesh::Facet f : mesh::boundary(mesh)) {
+    if (part.contains(f)) continue;
+    const Vec3 normal = mesh::unit(mesh.facet_area_vector(f));
+    for (int k = 0; k < mesh.topology().facet_corners; ++k)
+      for (auto [at, end] = nodes.equal_range(mesh.facet_node(f, k)); at != end; ++at) at->second->sharp |= dot(normal, at->second->normal) > kSmooth;
+  }
+}
+
 }  // namespace
 
 ContactPicture contact_picture(const Contact& contact, const scene::ContactResult& result, const std::vector<double>& displacement) {
@@ -175,6 +191,7 @@ ContactPicture contact_picture(const Contact& contact, const scene::ContactResul
     picture.nodes.push_back({contact.first.body->mesh->point(n.node), mesh::at_node(displacement, n.node, contact.first.body->dimension()), n.normal, n.pressure, n.weight, static_cast<Status>(static_cast<int>(n.status)),
                              n.shear, contact.second.body ? contact.rows[k].gap : 0, n.gap, mesh::length(n.slip)});
   }
+  find_sharp(contact, picture);
   return picture;
 }
 

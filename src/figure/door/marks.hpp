@@ -23,8 +23,10 @@ struct DataMark {
 //   "loaded"                                     the line along the outer ends of arrows, over all that is loaded
 //   "obstacle"                                   its line
 //   "fixed", "sliding", "displacement given", "spring", "open support"   where it holds the body, and its ground
-// of pages with beams: the names of states (state_name), with the moving end of an element below a beam at rest, as it is, and its
-// ground, and the working point of a graph; of charts: "slope guide", the corners of its triangle. "legend: NAME", without points.
+// of plans of plates also "point support", and "pushing" or "pulling": an ordinate of the reaction of an edge, or a reaction at a point;
+// of pages with beams: "beam", its line; "curve", of a diagram or a law; the names of states (state_name), with the moving end of an
+// element below a beam at rest, as it is, and its ground, and the working point of a graph; of charts: "curve: NAME" and
+// "markers: NAME" of a series, and "slope guide", the corners of its triangle. "legend: NAME", without points.
 std::vector<DataMark> marks(const ScenePicture& picture);
 std::vector<DataMark> marks(const PagePicture& picture);
 std::vector<DataMark> marks(const PlatePicture& picture);

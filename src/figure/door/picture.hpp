@@ -99,6 +99,7 @@ struct ContactNode {
   Vec3 shear = {0, 0, 0};                   // friction on the first part, as the pressure
   double rest_gap = 0;                      // to another body at rest, along the normal; negative: an interference
   double gap = 0, slip = 0;                 // as deformed; how far it has slipped
+  bool sharp = false;                       // the part ends here within a smooth face: an edge presses, and the pressure has no bound
   bool covered = false;                     // another contact on the same part tells the state of this node: neither marker nor line
 };
 

@@ -232,7 +232,9 @@ void draw_cell(Canvas& canvas, const BeamDrawing& beam, const Axes& axes) {
   canvas.polyline(std::array{axes.at(0, 0), axes.at(beam.length, 0)}, std::max(1.2, em / 16), {120, 120, 120}, dash);
   Loads loads(canvas, beam, axes);
   loads.draw_distributed();
-  canvas.polyline(axes.line(beam.x, beam.deflection), std::max(3.0, em / 4.5), {30, 30, 30});
+  const std::vector<Point> line = axes.line(beam.x, beam.deflection);
+  canvas.tell({"beam", axes.values(line)});
+  canvas.polyline(line, std::max(3.0, em / 4.5), {30, 30, 30});
   draw_supports(canvas, beam, axes);
   loads.draw_at_points();
   canvas.no_clip();

@@ -62,18 +62,22 @@ void draw_point(Canvas& canvas, const CurveDrawing& curve, const Axes& axes) {
   Occupied all = occupied;
   all.add({{axes.room.left, origin.y}, {axes.room.right, origin.y}}, axes.room);
   all.add({{origin.x, axes.room.bottom}, {origin.x, axes.room.top}}, axes.room);
-  // In one line or two; at worst over a curve.
+  // In one line or two; at worst over a curve. A line leads to what is far.
+  constexpr double kFar = 2.5;
   Occupied marker;
   marker.add(Box::about(p, {0.8 * em, 0.8 * em}));
   const double size = 0.9 * em, line = 1.25 * size;
   const std::string abscissa = "(" + number(x) + ",", ordinate = number(y) + ")";
   const std::vector<std::string> lines[] = {{abscissa + " " + ordinate}, {abscissa, ordinate}};
-  for (const Occupied* spared : {&all, &occupied, &marker})
+  for (const auto& [spared, margin] : {std::pair{&all, 0.35}, {&occupied, 0.35}, {&occupied, 0.1}, {&marker, 0.1}})
     for (const std::vector<std::string>& texts : lines) {
       Point extent{0, size + line * static_cast<double>(texts.size() - 1)};
       for (const std::string& text : texts) extent.x = std::max(extent.x, text_extent(text, size).x);
-      const auto place = place_beside(*spared, axes.room, p, extent, 0.35 * em);
+      const auto place = place_beside(*spared, axes.room, p, extent, margin * em);
       if (!place) continue;
+      const Box box = Box::about(*place, extent);
+      const Point end{std::clamp(p.x, box.left, box.right), std::clamp(p.y, box.bottom, box.top)};
+      if (const double far = length(end - p); far > kFar * em) canvas.line(part_way(p, end, 0.4 * em / far), end, std::max(1.0, em / 20), axes_ink);
       for (std::size_t i = 0; i < texts.size(); ++i)
         canvas.text({place->x, place->y + extent.y / 2 - size / 2 - line * static_cast<double>(i)}, texts[i], {.size = size, .across = Align::middle, .up = Align::middle, .colour = axes_ink, .halo = true});
       return;
@@ -114,7 +118,9 @@ void draw_cell(Canvas& canvas, const CurveDrawing& curve, const Axes& axes) {
   const std::array<double, 2> dash{0.35 * em, 0.3 * em};
   for (const PageCurve& c : curve.curves) {
     if (curve.area) fill(canvas, c, axes, colour);
-    canvas.polyline(axes.line(c.x, c.y), c.dashed ? 0.6 * width : width, colour, c.dashed ? std::span<const double>(dash) : std::span<const double>());
+    const std::vector<Point> line = axes.line(c.x, c.y);
+    canvas.tell({"curve", axes.values(line)});
+    canvas.polyline(line, c.dashed ? 0.6 * width : width, colour, c.dashed ? std::span<const double>(dash) : std::span<const double>());
   }
   canvas.no_clip();
   if (curve.area && !curve.curves.empty()) label_extremes(canvas, curve.curves.front(), axes);

@@ -103,10 +103,17 @@ std::vector<Label> labels(const Stage& stage, const Plate& plate) {
 void draw_above(Stage& stage, const Plate& plate) {
   for (const EdgeRun& run : plate.runs) draw_edge(stage, run);
   draw_strips(stage, plate);
-  for (const PlatePointSupport& s : plate.picture.supports)  // the apex at the point, as on drawings
-    draw_apex(stage, stage.view.flat({s.x, s.y, 0}), {0.5 * stage.em, 0.85 * stage.em}, 0.12 * stage.em, support_colour(s.support, s.status));
-  for (const PlateForce& f : plate.picture.forces)
-    if (carries(plate, f)) stage.over.marker(Marker::disc, stage.view.flat({f.x, f.y, 0}), dot_size(stage, plate, f), f.force < 0 ? pull_line : pressure_line);
+  for (const PlatePointSupport& s : plate.picture.supports) {  // the apex at the point, as on drawings
+    const Point at = stage.view.flat({s.x, s.y, 0});
+    draw_apex(stage, at, {0.5 * stage.em, 0.85 * stage.em}, 0.12 * stage.em, support_colour(s.support, s.status));
+    stage.tell("point support", std::array{at});
+  }
+  for (const PlateForce& f : plate.picture.forces) {
+    if (!carries(plate, f)) continue;
+    const Point at = stage.view.flat({f.x, f.y, 0});
+    stage.over.marker(Marker::disc, at, dot_size(stage, plate, f), f.force < 0 ? pull_line : pressure_line);
+    stage.tell(f.force < 0 ? "pulling" : "pushing", std::array{at});
+  }
   draw_labels(stage.over, labels(stage, plate));
 }
 

@@ -194,7 +194,7 @@ LegendEntry pressure_entry(const Stage& stage) {
               c.convex(hill, pressure_fill, 0.9);
               c.polyline(hill, std::max(1.2, em / 14), pressure_line);
             }};
-  const std::string name = stage.plane && !map ? "contact pressure" : at_most("contact pressure", stage.greatest_pressure, stage.picture.pressure_unit);
+  const std::string name = stage.plane && !map ? "contact pressure" : at_most("contact pressure", stage.greatest_pressure, stage.picture.pressure_unit) + (stage.sharp ? singular_edge : "");
   return {name, [em = stage.em, arrow = !map, dots = map || stage.inset](Canvas& c, const Box& b) {
             const double x = b.centre().x - (arrow && dots ? 0.4 * em : 0);
             if (arrow) c.arrow({x, b.top - 0.1 * em}, {x, b.bottom + 0.1 * em}, std::max(1.2, em / 14), 0.42 * em, pressure_line);

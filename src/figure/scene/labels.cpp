@@ -102,12 +102,12 @@ Box free_place(const Stage& stage, const Barriers& barriers, const Box& wanted, 
   return settled(wanted);
 }
 
-std::string words(const Stage& stage, const ContactPicture& contact, double pressure) {
+std::string words(const Stage& stage, const ContactPicture& contact, double pressure, bool singular) {
   double greatest = 0;
   for (const ContactNode& node : contact.nodes) greatest = std::max(greatest, node.pressure);
   const std::string& unit = stage.picture.pressure_unit;
   // A window may not show the greatest: then the number is that of the tallest ordinate in it.
-  return (pressure < greatest ? "" : "max ") + number(pressure) + (unit.empty() ? "" : " " + unit);
+  return (pressure < 0.9999 * greatest ? "" : "max ") + number(pressure) + (unit.empty() ? "" : " " + unit) + (singular ? singular_edge : "");
 }
 
 std::optional<Label> peak_label(const Stage& stage, const Barriers& barriers, const ContactPicture& contact, bool within_frame) {
@@ -119,7 +119,7 @@ std::optional<Label> peak_label(const Stage& stage, const Barriers& barriers, co
   // Of equal peaks that in the middle.
   std::copy_if(seen.begin(), seen.end(), std::back_inserter(peaks), [&](const ContactNode* node) { return node->pressure >= 0.9999 * greatest; });
   const ContactNode& peak = *peaks[peaks.size() / 2];
-  const std::string text = words(stage, contact, greatest);
+  const std::string text = words(stage, contact, greatest, peak.sharp);
   const double em = stage.em, letters = 0.85 * em;
   const Point n = stage.view.direction(peak.normal), size = text_extent(text, letters);
   const Point off{n.x * (size.x / 2 + 0.35 * em), n.y * (size.y / 2 + 0.3 * em)};

@@ -61,7 +61,7 @@ void Stage::set_greatest() {
     const std::vector<bool> seen = shown(contact);
     for (std::size_t i = 0; i < seen.size(); ++i)
       if (seen[i]) {
-        greatest_pressure = std::max(greatest_pressure, contact.nodes[i].pressure);
+        if (contact.nodes[i].pressure > greatest_pressure) greatest_pressure = contact.nodes[i].pressure, sharp = contact.nodes[i].sharp;
         if (picture.shear) greatest_shear = std::max(greatest_shear, std::sqrt(dot(contact.nodes[i].shear, contact.nodes[i].shear)));
       }
   }

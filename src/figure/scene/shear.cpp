@@ -15,6 +15,18 @@ std::vector<std::size_t> rubbing_nodes(const Stage& stage, const ContactPicture&
   return out;
 }
 
+// Moved along itself until it is between the ends of the contact line, beyond which it would act on nothing; a longer one to their middle.
+Segment moved_between(const Box& line, const Segment& arrow) {
+  const Point way = arrow[1] - arrow[0];
+  const bool across = std::abs(way.x) >= std::abs(way.y);
+  const auto [low, high] = across ? std::pair{line.left, line.right} : std::pair{line.bottom, line.top};
+  const auto [begin, end] = std::minmax(across ? arrow[0].x : arrow[0].y, across ? arrow[1].x : arrow[1].y);
+  if (!(end > begin)) return arrow;
+  const double along = end - begin > high - low ? (low + high - begin - end) / 2 : std::max(0.0, low - begin) - std::max(0.0, end - high);
+  const Point shift = along / (across ? way.x : way.y) * way;
+  return {arrow[0] + shift, arrow[1] + shift};
+}
+
 }  // namespace
 
 // The ends of the arrow of a node's shear, beside the contact line on the side of the first part, which it acts on.
@@ -48,7 +60,10 @@ void draw_shear(Stage& stage, const std::vector<Segment>& arrows) {
 
 std::vector<Segment> line_shear(const Stage& stage, const ContactPicture& contact) {
   const double spacing = std::max(0.95 * stage.em, 1.1 * shear_scale(stage, longest_shear) * stage.greatest_shear);
-  return shear_arrows(stage, contact, stage.at(contact.nodes), spacing, [&](std::size_t i) { return shear_arrow(stage, contact.nodes[i]); });
+  const std::vector<Point> at = stage.at(contact.nodes);
+  Bounds line;
+  for (const Point& p : at) line.add(p);
+  return shear_arrows(stage, contact, at, spacing, [&](std::size_t i) { return moved_between(line, shear_arrow(stage, contact.nodes[i])); });
 }
 
 }  // namespace dotyk::figure

@@ -47,6 +47,7 @@ struct Stage {
   std::optional<Box> asked, window;  // what the figure shows, across and up, where that is not all: as the picture says; and drawn, which is at least that
   double window_strip = 0;    // pixels of the greatest pressure in a window
   double greatest_pressure = 0, greatest_shear = 0, greatest_load = 0;  // the first two of what is seen
+  bool sharp = false;         // the greatest pressure is at an edge that presses
   bool deformation_shows = false;
   bool crowded = false;  // labels would take more room than they leave to the scene: they are within it
   Canvas under, over;         // below and above the bodies
@@ -198,6 +199,9 @@ void draw_labels(Canvas& canvas, const std::vector<Label>& labels);
 std::vector<std::optional<Label>> peak_labels(const Stage& stage, bool within_frame = true);
 // The end of the pressure ordinate of a node.
 Point pressure_tip(const Stage& stage, const ContactNode& node);
+
+// Said of a pressure that has no bound: another mesh gives another number, and stresses there are means over cells.
+constexpr const char* singular_edge = ", singular at an edge";
 
 constexpr Colour pressure_line{45, 50, 90}, pressure_fill{205, 214, 235}, shear_line{150, 15, 40};
 constexpr double hatch_depth = 0.75;  // em
