@@ -140,13 +140,10 @@ ColourScale colour_scale(const ScenePicture& p, const std::optional<Box>& window
   if (std::abs(part.least) < kRounding * part.greatest) part.least = 0;
   if (std::abs(part.greatest) < -kRounding * part.least) part.greatest = 0;
   scale.least = scale.low = part.least, scale.greatest = scale.high = part.greatest;
-  if (p.field_range) {
-    scale.low = (*p.field_range)[0], scale.high = (*p.field_range)[1];
-  } else {
-    leave_out_peaks(scale, values_of(p, window));
-    for (const auto& [end, extreme] : {std::pair{&scale.low, part.least}, std::pair{&scale.high, part.greatest}})
-      if (*end != extreme && !is_singular(p, extreme)) *end = extreme;
-  }
+  if (p.field_range) scale.low = (*p.field_range)[0], scale.high = (*p.field_range)[1];
+  else leave_out_peaks(scale, values_of(p, window));
+  for (const auto& [end, extreme] : {std::pair{&scale.low, part.least}, std::pair{&scale.high, part.greatest}})
+    if (!p.field_range && *end != extreme && !is_singular(p, extreme)) *end = extreme;
   constexpr double kNearZero = 0.5;
   if (!p.field_range && !p.field_signed && scale.low > 0 && scale.low < kNearZero * scale.high) scale.low = 0;
   // A field without sign may dip below zero by rounding, or by recovery.

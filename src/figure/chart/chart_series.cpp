@@ -203,8 +203,8 @@ void SeriesDrawing::draw_lines() {
   for (std::size_t k = 0; k < looks_.size(); ++k) {
     const SeriesPicture& s = looks_[k].data;
     lines.push_back(has_line(s) ? curves(s.x, s.y, axes_of(s)) : std::vector<std::vector<Point>>());
-    for (const auto& curve : lines[k]) canvas_.tell({"curve: " + s.name, axes_of(s).values(curve)});
-    for (const auto& curve : lines[k]) looks_[k].dashed ? pen_.stroke(canvas_, curve, looks_[k]) : stroke_within(canvas_, room, curve, width, looks_[k].colour);
+    for (const auto& curve : lines[k])
+      canvas_.tell({"curve: " + s.name, axes_of(s).values(curve)}), looks_[k].dashed ? pen_.stroke(canvas_, curve, looks_[k]) : stroke_within(canvas_, room, curve, width, looks_[k].colour);
     if (looks_[k].dashed || lines[k].empty()) continue;
     of.push_back(k);
     solid.emplace_back(room, near);
@@ -254,10 +254,8 @@ void SeriesDrawing::draw_markers() {
   const double near = 0.75 * pen_.line_width();
   const Box room = axes_.left.room.grown(1);
   std::vector<std::vector<Point>> places;
-  for (const Look& look : looks_) {
-    places.push_back(marked(look.data));
-    canvas_.tell({"markers: " + look.data.name, axes_of(look.data).values(places.back())});
-  }
+  for (const Look& look : looks_)
+    places.push_back(marked(look.data)), canvas_.tell({"markers: " + look.data.name, axes_of(look.data).values(places.back())});
   std::vector<Neighbourhood> about(looks_.size(), Neighbourhood(room, near));
   for (std::size_t k = 0; k < looks_.size(); ++k)
     for (const Point& p : places[k]) about[k].add(p);

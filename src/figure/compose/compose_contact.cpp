@@ -170,12 +170,10 @@ void find_sharp(const Contact& contact, ContactPicture& picture) {
   const std::set<mesh::Facet> part(contact.first.facets.begin(), contact.first.facets.end());
   std::multimap<int, ContactNode*> nodes;
   for (std::size_t k = 0; k < picture.nodes.size(); ++k) nodes.emplace(contact.rows[k].node, &picture.nodes[k]);
-  for (const mesh::Facet f : mesh::boundary(mesh)) {
-    if (part.contains(f)) continue;
-    const Vec3 normal = mesh::unit(mesh.facet_area_vector(f));
-    for (int k = 0; k < mesh.topology().facet_corners; ++k)
-      for (auto [at, end] = nodes.equal_range(mesh.facet_node(f, k)); at != end; ++at) at->second->sharp |= dot(normal, at->second->normal) > kSmooth;
-  }
+  for (const mesh::Facet f : mesh::boundary(mesh))
+    for (int k = 0; k < mesh.topology().facet_corners && !part.contains(f); ++k)
+      for (auto [at, end] = nodes.equal_range(mesh.facet_node(f, k)); at != end; ++at)
+        at->second->sharp |= mesh::dot(mesh::unit(mesh.facet_area_vector(f)), at->second->normal) > kSmooth;
 }
 
 }  // namespace

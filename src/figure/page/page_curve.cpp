@@ -63,10 +63,9 @@ void draw_point(Canvas& canvas, const CurveDrawing& curve, const Axes& axes) {
   all.add({{axes.room.left, origin.y}, {axes.room.right, origin.y}}, axes.room);
   all.add({{origin.x, axes.room.bottom}, {origin.x, axes.room.top}}, axes.room);
   // In one line or two; at worst over a curve. A line leads to what is far.
-  constexpr double kFar = 2.5;
   Occupied marker;
   marker.add(Box::about(p, {0.8 * em, 0.8 * em}));
-  const double size = 0.9 * em, line = 1.25 * size;
+  const double size = 0.9 * em, line = 1.25 * size, far = 2.5 * em;
   const std::string abscissa = "(" + number(x) + ",", ordinate = number(y) + ")";
   const std::vector<std::string> lines[] = {{abscissa + " " + ordinate}, {abscissa, ordinate}};
   for (const auto& [spared, margin] : {std::pair{&all, 0.35}, {&occupied, 0.35}, {&occupied, 0.1}, {&marker, 0.1}})
@@ -77,7 +76,7 @@ void draw_point(Canvas& canvas, const CurveDrawing& curve, const Axes& axes) {
       if (!place) continue;
       const Box box = Box::about(*place, extent);
       const Point end{std::clamp(p.x, box.left, box.right), std::clamp(p.y, box.bottom, box.top)};
-      if (const double far = length(end - p); far > kFar * em) canvas.line(part_way(p, end, 0.4 * em / far), end, std::max(1.0, em / 20), axes_ink);
+      if (const double way = length(end - p); way > far) canvas.line(part_way(p, end, 0.4 * em / way), end, std::max(1.0, em / 20), axes_ink);
       for (std::size_t i = 0; i < texts.size(); ++i)
         canvas.text({place->x, place->y + extent.y / 2 - size / 2 - line * static_cast<double>(i)}, texts[i], {.size = size, .across = Align::middle, .up = Align::middle, .colour = axes_ink, .halo = true});
       return;

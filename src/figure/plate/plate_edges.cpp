@@ -144,10 +144,9 @@ void draw_strips(Stage& stage, const Plate& plate) {
     const auto pulls = [&](std::size_t i) { return points[i].reaction + points[i + 1].reaction < 0; };
     for (std::size_t i = 0; i + 1 < points.size(); ++i)
       stage.over.convex(std::array{feet[i], feet[i + 1], tips[i + 1], tips[i]}, pulls(i) ? pull_fill : pressure_fill, 0.85);
-    for (const std::size_t i : stage.spaced(feet, 0.55 * stage.em)) {
-      stage.over.line(feet[i], tips[i], std::max(0.8, stage.em / 30), points[i].reaction < 0 ? pull_line : pressure_line, 0.6);
-      stage.tell(points[i].reaction < 0 ? "pulling" : "pushing", Segment{feet[i], tips[i]});
-    }
+    for (const std::size_t i : stage.spaced(feet, 0.55 * stage.em))
+      stage.over.line(feet[i], tips[i], std::max(0.8, stage.em / 30), points[i].reaction < 0 ? pull_line : pressure_line, 0.6),
+          stage.tell(points[i].reaction < 0 ? "pulling" : "pushing", Segment{feet[i], tips[i]});
     stage.over.polyline(feet, std::max(0.8, stage.em / 30), {130, 130, 130});
     for (std::size_t i = 0; i + 1 < points.size(); ++i) {
       if (points[i].reaction == 0 && points[i + 1].reaction == 0) continue;

@@ -103,17 +103,14 @@ std::vector<Label> labels(const Stage& stage, const Plate& plate) {
 void draw_above(Stage& stage, const Plate& plate) {
   for (const EdgeRun& run : plate.runs) draw_edge(stage, run);
   draw_strips(stage, plate);
-  for (const PlatePointSupport& s : plate.picture.supports) {  // the apex at the point, as on drawings
-    const Point at = stage.view.flat({s.x, s.y, 0});
-    draw_apex(stage, at, {0.5 * stage.em, 0.85 * stage.em}, 0.12 * stage.em, support_colour(s.support, s.status));
-    stage.tell("point support", std::array{at});
-  }
-  for (const PlateForce& f : plate.picture.forces) {
-    if (!carries(plate, f)) continue;
-    const Point at = stage.view.flat({f.x, f.y, 0});
-    stage.over.marker(Marker::disc, at, dot_size(stage, plate, f), f.force < 0 ? pull_line : pressure_line);
-    stage.tell(f.force < 0 ? "pulling" : "pushing", std::array{at});
-  }
+  const auto told = [&](const char* what, const auto& thing) {
+    const std::array at{stage.view.flat({thing.x, thing.y, 0})};
+    return stage.tell(what, at), at[0];
+  };
+  for (const PlatePointSupport& s : plate.picture.supports)  // the apex at the point, as on drawings
+    draw_apex(stage, told("point support", s), {0.5 * stage.em, 0.85 * stage.em}, 0.12 * stage.em, support_colour(s.support, s.status));
+  for (const PlateForce& f : plate.picture.forces)
+    if (const bool pulls = f.force < 0; carries(plate, f)) stage.over.marker(Marker::disc, told(pulls ? "pulling" : "pushing", f), dot_size(stage, plate, f), pulls ? pull_line : pressure_line);
   draw_labels(stage.over, labels(stage, plate));
 }
 

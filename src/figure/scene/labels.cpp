@@ -103,8 +103,7 @@ Box free_place(const Stage& stage, const Barriers& barriers, const Box& wanted, 
 }
 
 std::string words(const Stage& stage, const ContactPicture& contact, double pressure, bool singular) {
-  double greatest = 0;
-  for (const ContactNode& node : contact.nodes) greatest = std::max(greatest, node.pressure);
+  const double greatest = std::ranges::max_element(contact.nodes, {}, &ContactNode::pressure)->pressure;
   const std::string& unit = stage.picture.pressure_unit;
   // A window may not show the greatest: then the number is that of the tallest ordinate in it.
   return (pressure < 0.9999 * greatest ? "" : "max ") + number(pressure) + (unit.empty() ? "" : " " + unit) + (singular ? singular_edge : "");

@@ -7,14 +7,6 @@ namespace {
 
 constexpr double longest_shear = 1.5, least_arrow = 0.3;  // em
 
-// The nodes that may have an arrow: it is not too short to be seen, and in the picture as a whole.
-std::vector<std::size_t> rubbing_nodes(const Stage& stage, const ContactPicture& contact, const std::function<Segment(std::size_t node)>& arrow) {
-  std::vector<std::size_t> out;
-  for (std::size_t i = 0; i < contact.nodes.size(); ++i)
-    if (const Segment s = arrow(i); contact.nodes[i].status != Status::open && length(s[1] - s[0]) >= least_arrow * stage.em && stage.shows(s[0]) && stage.shows(s[1])) out.push_back(i);
-  return out;
-}
-
 // Moved along itself until it is between the ends of the contact line, beyond which it would act on nothing; a longer one to their middle.
 Segment moved_between(const Box& line, const Segment& arrow) {
   const Point way = arrow[1] - arrow[0];
@@ -46,8 +38,10 @@ std::vector<Segment> shear_arrows(const Stage& stage, const ContactPicture& cont
                                   const std::function<Segment(std::size_t node)>& arrow) {
   if (!(stage.greatest_shear > 0)) return {};
   std::vector<Segment> out;
-  const auto size = [&](std::size_t i) { return length(contact.nodes[i].shear); };
-  for (const std::size_t i : spread(at, rubbing_nodes(stage, contact, arrow), size, spacing)) out.push_back(arrow(i));
+  std::vector<std::size_t> rubbing;  // whose arrow is not too short to be seen, and in the picture as a whole
+  for (std::size_t i = 0; i < contact.nodes.size(); ++i)
+    if (const Segment s = arrow(i); contact.nodes[i].status != Status::open && length(s[1] - s[0]) >= least_arrow * stage.em && stage.shows(s[0]) && stage.shows(s[1])) rubbing.push_back(i);
+  for (const std::size_t i : spread(at, rubbing, [&](std::size_t k) { return length(contact.nodes[k].shear); }, spacing)) out.push_back(arrow(i));
   return out;
 }
 
