@@ -163,9 +163,10 @@ void cover(const Solution& s, const std::vector<std::pair<const Contact*, std::s
       }
 }
 
-/// Finds the nodes where facets beside the part go on as those of the part do.
+/// Finds the nodes where facets beside the part go on as those of the part do. A plane has no edge: there the part ends, not what presses.
 void find_sharp(const Contact& contact, ContactPicture& picture) {
   constexpr double kSmooth = 0.9;  // least cosine
+  if (std::holds_alternative<contact::RigidPlane>(contact.shape)) return;
   const mesh::Mesh& mesh = *contact.first.body->mesh;
   const std::set<mesh::Facet> part(contact.first.facets.begin(), contact.first.facets.end());
   std::multimap<int, ContactNode*> nodes;
