@@ -46,7 +46,7 @@ Measure::Measure(const Problem& problem, Vector stiffness)
 Measure::Measure(const Problem& problem, const State& state, const Forces& forces) : Measure(problem) {
   const std::vector<double> borne = parts_.norm(state.lambda), stiffest = parts_.greatest(stiffness_), deformed = deformation(problem, parts_, state, forces);
   for (std::size_t p = 0; p < force_.size(); ++p) {
-    force_[p] = std::max({load_[p], least_[p], std::min(borne[p], at_rest_[p])});
+    force_[p] = force(p, borne[p]);
     if (force_[p] == 0) force_[p] = std::max(borne[p], kHalf * gross_forces(problem, p, state.u));
     length_[p] = positive_or_one(std::max(stiffest[p] > 0 ? force_[p] / stiffest[p] : 0, deformed[p]));
     force_[p] = positive_or_one(force_[p]);

@@ -27,6 +27,8 @@ class Measure {
   const Parts& parts() const { return parts_; }
   const algebra::Vector& stiffness() const { return stiffness_; }  ///< k by row; 0 where no unknown moves a row
   double force(std::size_t part) const { return force_[part]; }    ///< F, 1 where nothing gives a measure
+  /// F of a state whose multipliers have that norm on the part's rows.
+  double force(std::size_t part, double borne) const { return std::max({load_[part], least_[part], std::min(borne, at_rest_[part])}); }
   double length(std::size_t part) const { return length_[part]; }  ///< X, likewise
   /// A method's forces are measured by their own norm where that is more than this: √ε of what drives the part, or a small part of the others'.
   double least_force(std::size_t part) const;

@@ -1,6 +1,7 @@
 #include "solver/feti/feti.hpp"
 
 #include "base/stopwatch.hpp"
+#include "problem/measure.hpp"
 #include "problem/uniqueness.hpp"
 #include "solver/feti/feti_preconditioner.hpp"
 #include "solver/rows/projection.hpp"
@@ -31,31 +32,11 @@ constexpr double kSpoilt = 1e4, kMostNoise = 0.1;
 /// Below this part of what it is the difference of Pd may be rounding; it is taken for so many times what was seen of it.
 constexpr double kSuspect = 1e-9, kSuspectRoundings = 10;
 
-/// One over the unit in which ‖Qx‖ counts forces (TornProblem: by the stiffness of what carries them): ‖λ̄‖ / ‖B̂ᵀλ̄‖, or where
-/// loads balance on every piece ‖k^(−½)f‖ / ‖f‖; 1 where there are none. 1 as well where k = 1. `balanced`: λ̄.
-double force_unit(const DualProblem& dual, const Vector& balanced) {
-  const TornProblem& torn = dual.torn();
-  const double carried = (torn.Bt * balanced).stableNorm();
-  if (carried > 0) return balanced.stableNorm() / carried;
-  const double plain = dual.load().stableNorm();
-  return plain > 0 ? dual.load().cwiseQuotient(torn.stiffness.cwiseSqrt()).stableNorm() / plain : 1;
-}
-
-/// The greatest of the sums of what λ̄ and the load do on a motion of a piece, |G̃||λ̄| + |R̂|ᵀ|f|: none of it cancelled.
-double gross_load(const DualProblem& dual, const Vector& balanced) {
-  Vector gross = dual.G().cwiseAbs() * balanced.cwiseAbs();
-  for (const Piece& piece : dual.torn().pieces) {
-    const algebra::DenseMatrix& R = dual.basis(piece);
-    gross.segment(piece.first_mode, R.cols()) += R.cwiseAbs().transpose() * piece.f->cwiseAbs();
-  }
-  return gross.lpNorm<Eigen::Infinity>();
-}
-
 class FetiRun {
  public:
   /// `unnoticed`: the displacements that no row notices, as far as they are known; the solution's part in them is zero.
   FetiRun(const Problem& problem, const Feti& method, algebra::SparseMatrix unnoticed, Monitor& monitor)
-      : problem_(problem), method_(method), unnoticed_(std::move(unnoticed)), monitor_(monitor),
+      : problem_(problem), method_(method), unnoticed_(std::move(unnoticed)), monitor_(monitor), measure_(problem),
         dual_(problem, method.ordering, result_.clock, monitor), coarse_(dual_.G(), dual_.e()),
         preconditioner_(dual_, coarse_, method, monitor), outer_(method.outer) {
     if (coarse_.imbalance() > kImbalance)
@@ -89,13 +70,11 @@ class FetiRun {
     if (method_.spectrum && ends.least > 0) counts_.condition = ends.greatest / ends.least;
     choose_unit();
     shift_ = coarse_.particular() / unit_;
-    force_ *= force_unit(dual_, coarse_.particular());
-    gross_ = gross_load(dual_, coarse_.particular()) / unit_;
     const Vector d = dual_.d() / unit_, Fshift = dual_.apply(shift_);
     program_.b = coarse_.P(d - Fshift);
     x_ = nu_ = Vector::Zero(dual_.rows());
     displacement_ = program_.b.norm(), noise_ = rounding(d, Fshift);
-    if (method_.stop == Feti::Stop::d) displacement_ = d.norm(), gross_ = 0;
+    if (method_.stop == Feti::Stop::d) displacement_ = d.norm();
   }
 
   /// What of Pd is rounding, where that may be all of it (λ̄ is the solution: of uniform stress it is), else zero.
@@ -105,27 +84,39 @@ class FetiRun {
     return kSuspectRoundings * (last + algebra::rounding_seen([this](const Vector& v) { return dual_.apply(v); }, shift_, Fshift));
   }
 
-  /// Forces are counted in a power of two of the size of the load, or where that is zero of what gaps and prescribed
-  /// displacements take, so that squares of them neither vanish nor overflow; all that the dual problem has is linear in it.
+  /// Forces are counted in a power of two of the greatest that the Measure has, so that squares of them neither vanish nor overflow; all that
+  /// the dual problem has is linear in it.
   void choose_unit() {
     double size = 0;
-    for (const problem::Block& block : problem_.blocks)
-      if (block.size() > 0) size = std::max(size, block.f.lpNorm<Eigen::Infinity>());
-    if (size == 0 && dual_.rows() > 0) size = dual_.d().lpNorm<Eigen::Infinity>() / program_.norm;
+    for (int p = 0; p < measure_.parts().count; ++p) size = std::max(size, measure_.force(p));
     if (size > 0 && std::isfinite(size)) unit_ = std::exp2(std::ilogb(size));
-    for (const problem::Block& block : problem_.blocks) force_ = std::hypot(force_, (block.f / unit_).norm());
     scale_ = dual_.scale() * unit_;
   }
 
   Vector lambda() const { return (x_ + shift_) * unit_; }  ///< of all rows, in the user's units but for the rows' scale
   /// Of the problem's rows, in the user's units.
-  Vector multipliers() const { return (x_ + shift_).head(problem_.rows()).cwiseProduct(scale_); }
+  Vector multipliers(const Vector& x) const { return (x + shift_).head(problem_.rows()).cwiseProduct(scale_); }
 
-  double relative(double gradient, double equality, const Vector& x) const {
-    const double force = force_ > 0 ? force_ : (x_ + shift_).norm();
+  /// G̃x are the forces left on the pieces' motions, of which R̂ is an orthonormal basis: their norm is measured as that of forces is.
+  double unbalanced_share(const Vector& x) const {
+    const Vector left = dual_.G() * x;
+    const problem::Parts& parts = measure_.parts();
+    const std::vector<double> borne = parts.norm(multipliers(x));
+    std::vector<double> of_part(borne.size(), 0);
+    for (std::size_t k = 0; k < dual_.torn().pieces.size(); ++k) {
+      const int block = problem_.subdomains.empty() ? static_cast<int>(k) : problem_.subdomains[k].block;
+      const Piece& piece = dual_.torn().pieces[k];
+      problem::add(of_part[static_cast<std::size_t>(parts.of_block[block])], left.segment(piece.first_mode, dual_.basis(piece).cols()));
+    }
+    double most = 0;
+    for (std::size_t p = 0; p < borne.size(); ++p)
+      if (const double force = measure_.force(p, borne[p]); of_part[p] > 0) most = std::max(most, force > 0 ? unit_ * of_part[p] / force : of_part[p]);
+    return most;
+  }
+
+  double relative(double gradient, const Vector& x) const {
     const double beyond = std::max(0.0, gradient - noise_);
-    const double g = displacement_ > 0 ? beyond / displacement_ : beyond, e = force > 0 ? equality / force : equality;
-    return std::max({g, e, gross_ > 0 ? (dual_.G() * x).cwiseAbs().maxCoeff() / gross_ : 0});
+    return std::max(displacement_ > 0 ? beyond / displacement_ : beyond, unbalanced_share(x));
   }
 
   void iterate() {
@@ -139,7 +130,7 @@ class FetiRun {
       const double precision = std::max(method_.tol, std::min(kFirst, kAhead * bounds_.change()));
       if (!solve_given(precision)) return;
       ++counts_.loops;
-      moves = bounds_.follow(friction_bounds(problem_, multipliers()));
+      moves = bounds_.follow(friction_bounds(problem_, multipliers(x_)));
       if (bounds_.change() <= method_.tol && precision <= method_.tol) return;
     }
     result_.converged = false;
@@ -156,13 +147,13 @@ class FetiRun {
     const SeparableSet set = admissible(problem_, scale_, bounds_.now(), shift_);
     program_.set = &set;
     const SmalbeCaller caller{
-        .done = [&](double gradient, double equality, const Vector& x) { return (residual_ = relative(gradient, equality, x)) <= precision; },
+        .done = [&](double gradient, double, const Vector& x) { return (residual_ = relative(gradient, x)) <= precision; },
         .inner = [&](const SmalbeState& state) {
           monitor_.phase(text("inner step ", counts_.inner + state.inner.steps(), ", residual ", residual_));
           return !monitor_.stop();
         },
         .outer = [&](const SmalbeState& state) {
-          record(state.inner.face(), state.outer, state.inner.steps(), relative(state.gradient, state.equality, state.inner.x()));
+          record(state.inner.face(), state.outer, state.inner.steps(), relative(state.gradient, state.inner.x()));
         }};
     SmalbeResult solved = minimise(program_, settings(set), caller, x_, nu_);
     x_ = std::move(solved.x);
@@ -225,7 +216,7 @@ class FetiRun {
     result_.iterations += solved.outer + (solved.end == End::done);
     counts_.inner += solved.inner;
     counts_.products += solved.products;
-    residual_ = relative(solved.gradient, solved.equality, x_);
+    residual_ = relative(solved.gradient, x_);
     result_.converged = solved.end == End::done;
     switch (solved.end) {
       case End::done: result_.reason = "the residual fell below tol"; break;
@@ -244,7 +235,7 @@ class FetiRun {
     const Vector v = dual_.elastic(lambda());
     const Vector alpha = coarse_.amounts(dual_.torn().compliance.cwiseProduct(lambda()) - dual_.jump(v) - nu_ * unit_);
     result_.state.u = problem::least(unnoticed_, average(dual_.torn(), dual_.moved(v, alpha)));
-    result_.state.lambda = multipliers();
+    result_.state.lambda = multipliers(x_);
   }
 
   void report() {
@@ -265,13 +256,14 @@ class FetiRun {
   const Feti& method_;
   const algebra::SparseMatrix unnoticed_;
   Monitor& monitor_;
+  const problem::Measure measure_;
   Result result_;
   DualProblem dual_;
   CoarseSpace coarse_;
   FetiPreconditioner preconditioner_;
   EqualityProgram program_;
   Smalbe outer_;  ///< M and ρ as the last bounds left them
-  double unit_ = 1, force_ = 0, gross_ = 0, displacement_ = 0, noise_ = 0, residual_ = 0;
+  double unit_ = 1, displacement_ = 0, noise_ = 0, residual_ = 0;
   Vector scale_;  ///< D in that unit
   Vector shift_, x_, nu_;
   SettlingBounds bounds_;

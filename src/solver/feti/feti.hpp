@@ -13,10 +13,10 @@ namespace dotyk::solver {
 /// P = I − Q and Q onto im G̃ᵀ; with the gradients divided by an upper bound of ‖PFP‖ it is solved by augmented
 /// Lagrangians (Smalbe) with Mprgp within.
 /// It stops where
-///   ‖g^P‖ ≤ tol ‖Pd‖,  d = d̃ − Fλ̄,  and  ‖Gλ − e‖ = ‖Qx‖ ≤ tol ‖f‖        (‖λ‖ in place of ‖f‖ where there is no load)
-/// (P2, §5, but for ‖d̃‖ there, which depends on what the generalised inverse fixes: Stop::d), rows scaled by the stiffness of what they
-/// join (TornProblem) and ‖f‖ by force_unit(), 1 where all is as stiff as each other; and where no resultant on a piece is above tol
-/// times the greatest gross_load(). Where λ̄ is the solution already, Pd is rounding: g^P is then zero as far as it is. Rows that
+///   ‖g^P‖ ≤ tol ‖Pd‖,  d = d̃ − Fλ̄,  and  ‖Gλ − e‖ ≤ tol F  in every part of the problem
+/// (P2, §5, but for ‖d̃‖ there, which depends on what the generalised inverse fixes: Stop::d). Rows are scaled by the stiffness of what
+/// they join (TornProblem); Gλ − e are the forces left on the pieces' motions, and F, the paper's ‖f‖, is that of problem::Measure with
+/// what the rows bear. Where λ̄ is the solution already, Pd is rounding: g^P is then zero as far as it is. Rows that
 /// depend on each other make F singular, nothing else; of their multipliers one choice is returned. Coulomb
 /// friction is an outer loop over given friction, b := μλ_n, ended where the bounds change by less than tol.
 struct Feti : Settings {
@@ -29,7 +29,7 @@ struct Feti : Settings {
   };
   enum class Stop {
     Pd,  ///< as above
-    d    ///< ‖d̃‖ in place of ‖Pd‖, and nothing asked of the resultants
+    d    ///< ‖d̃‖ in place of ‖Pd‖
   };
   problem::Decomposition decomposition;
   Stop stop = Stop::Pd;
