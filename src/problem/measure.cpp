@@ -1,5 +1,6 @@
 #include "problem/measure.hpp"
 
+#include "problem/condensed.hpp"
 #include "problem/rigid_motions.hpp"
 
 namespace dotyk::problem {
@@ -11,9 +12,18 @@ namespace {
 /// A part without loads has so much of the greatest force of the others: what methods that treat all parts at once leave there by rounding.
 constexpr double kBesideOthers = 1e-4;
 
+/// So many displacements away a row never closes.
+constexpr double kNever = 1e6;
+
 const double kHalf = std::sqrt(std::numeric_limits<double>::epsilon());
 
 double positive_or_one(double value) { return value > 0 && std::isfinite(value) ? value : 1; }
+
+/// 1 / w, 0 where w is none or the rounding of one.
+Vector local_stiffness(const Vector& w) {
+  const double least = w.size() > 0 ? 1e-14 * w.maxCoeff() : 0;
+  return w.unaryExpr([&](double yields) { return yields > least ? 1 / yields : 0.0; });
+}
 
 /// By part the greatest |u − R R⁺u|, R each block's rigid motions.
 std::vector<double> deformation(const Problem& problem, const Parts& parts, const State& state, const Forces& forces) {
@@ -34,21 +44,25 @@ std::vector<double> deformation(const Problem& problem, const Parts& parts, cons
 
 Measure::Measure(const Problem& problem, Vector stiffness)
     : parts_(problem::parts(problem)), stiffness_(stiffness.size() > 0 ? std::move(stiffness) : problem.row_stiffness()),
-      gap_(problem.c.cwiseAbs()), load_(static_cast<std::size_t>(parts_.count), 0), at_rest_(load_), moved_(load_) {
+      c_(problem.c), stiffest_(parts_.greatest(stiffness_)), load_(static_cast<std::size_t>(parts_.count), 0), at_rest_(load_), moved_(load_) {
   take_loads(problem);
   take_rows(problem);
   count_others();
   for (std::size_t p = 0; p < load_.size(); ++p) force_.push_back(std::max(driving(p), least_[p]));
-  const std::vector<double> stiffest = parts_.greatest(stiffness_);
-  for (std::size_t p = 0; p < load_.size(); ++p) length_.push_back(stiffest[p] > 0 ? force_[p] / stiffest[p] : 0);
+  for (std::size_t p = 0; p < load_.size(); ++p) length_.push_back(stiffest_[p] > 0 ? force_[p] / stiffest_[p] : 0);
+  const double most = positive_or_one(std::ranges::max(stiffest_));
+  for (double& k : stiffness_) k = k > 0 ? k : most;
+  for (double& force : force_) force = positive_or_one(force);
 }
 
+Measure::Measure(const Problem& problem, const CondensedProblem& condensed) : Measure(problem, local_stiffness(condensed.W().diagonal())) {}
+
 Measure::Measure(const Problem& problem, const State& state, const Forces& forces) : Measure(problem) {
-  const std::vector<double> borne = parts_.norm(state.lambda), stiffest = parts_.greatest(stiffness_), deformed = deformation(problem, parts_, state, forces);
+  const std::vector<double> borne = parts_.norm(state.lambda), deformed = deformation(problem, parts_, state, forces);
   for (std::size_t p = 0; p < force_.size(); ++p) {
     force_[p] = force(p, borne[p]);
     if (force_[p] == 0) force_[p] = std::max(borne[p], kHalf * gross_forces(problem, p, state.u));
-    length_[p] = positive_or_one(std::max(stiffest[p] > 0 ? force_[p] / stiffest[p] : 0, deformed[p]));
+    length_[p] = positive_or_one(std::max(stiffest_[p] > 0 ? force_[p] / stiffest_[p] : 0, deformed[p]));
     force_[p] = positive_or_one(force_[p]);
   }
 }
@@ -93,7 +107,19 @@ void Measure::count_others() {
 double Measure::least_force(std::size_t part) const { return std::max(kHalf * load_[part], least_[part]); }
 
 double Measure::length_of_row(int row) const {
-  return std::max(length_[static_cast<std::size_t>(parts_.of_row[row])], std::isfinite(gap_[row]) ? gap_[row] : 0);
+  return std::max(length_[static_cast<std::size_t>(parts_.of_row[row])], std::isfinite(c_[row]) ? std::abs(c_[row]) : 0);
+}
+
+Nothing Measure::nothing(double relative, const Vector& lambda, const Vector& x) const {
+  const auto counts = [&](int r, double moved) { return std::abs(c_[r]) < kNever * moved; };
+  Vector jump = (x + c_).cwiseAbs(), force(x.size());
+  for (int r = 0; r < x.size(); ++r) jump[r] = counts(r, jump[r]) ? jump[r] : 0;
+  const std::vector<double> borne = parts_.greatest(lambda), moved = parts_.greatest(jump);
+  for (int r = 0; r < x.size(); ++r) {
+    const auto p = static_cast<std::size_t>(parts_.of_row[r]);
+    force[r] = relative * (borne[p] + stiffness_[r] * std::max(moved[p], counts(r, moved[p]) ? std::abs(c_[r]) : 0));
+  }
+  return {force, force.cwiseQuotient(stiffness_)};
 }
 
 }  // namespace dotyk::problem

@@ -4,6 +4,13 @@
 
 namespace dotyk::problem {
 
+class CondensedProblem;
+
+/// A force and a gap, row by row, up to which they are nothing.
+struct Nothing {
+  algebra::Vector force, gap;
+};
+
 /// What counts as a force and as a displacement in a problem, by its loads, gaps, laws and stiffness: results are judged by it, and no result
 /// by its own size. It is a measure of each of the problem's Parts.
 ///
@@ -21,11 +28,14 @@ class Measure {
  public:
   /// `stiffness`: k by row, in force per displacement; without it that of Problem::row_stiffness().
   explicit Measure(const Problem& problem, algebra::Vector stiffness = {});
+  /// k is what bodies yield as well as the row's own cells: 1/W_rr.
+  Measure(const Problem& problem, const CondensedProblem& condensed);
   Measure(const Problem& problem, const State& state, const Forces& forces);
   Measure(const Problem& problem, const State& state) : Measure(problem, state, external_forces(problem, state)) {}
 
   const Parts& parts() const { return parts_; }
-  const algebra::Vector& stiffness() const { return stiffness_; }  ///< k by row; 0 where no unknown moves a row
+  /// k by row; the greatest of all where no unknown moves a row, 1 where none moves any.
+  const algebra::Vector& stiffness() const { return stiffness_; }
   double force(std::size_t part) const { return force_[part]; }    ///< F, 1 where nothing gives a measure
   /// F of a state whose multipliers have that norm on the part's rows.
   double force(std::size_t part, double borne) const { return std::max({load_[part], least_[part], std::min(borne, at_rest_[part])}); }
@@ -34,6 +44,9 @@ class Measure {
   double least_force(std::size_t part) const;
   double force_of_row(int row) const { return force_[static_cast<std::size_t>(parts_.of_row[row])]; }
   double length_of_row(int row) const;
+  /// `relative` of the terms that make forces and gaps at multipliers λ and gaps x: of the greatest |λ| of the row's part, and of |c_r| and the greatest
+  /// |x + c| of the part, each turned into the other by k_r. A few ε is what rounding leaves. A gap that says "never" does not count.
+  Nothing nothing(double relative, const algebra::Vector& lambda, const algebra::Vector& x) const;
   /// ‖|K||u|‖ of a part.
   double gross_forces(const Problem& problem, std::size_t part, const Displacement& u) const;
 
@@ -44,7 +57,8 @@ class Measure {
   double driving(std::size_t part) const { return std::max(load_[part], at_rest_[part]); }
 
   Parts parts_;
-  algebra::Vector stiffness_, gap_;            ///< by row; gap_: |c|, 0 where there is none
+  algebra::Vector stiffness_, c_;              ///< by row
+  std::vector<double> stiffest_;               ///< by part
   std::vector<double> load_, at_rest_;         ///< by part: ‖f‖, ‖λ⁰‖
   std::vector<double> moved_;                  ///< by part that nothing loads: ‖|K||w|‖, w a motion by its greatest driving gap
   std::vector<double> least_;                  ///< by part, what counts at least where bodies get out of each other's way

@@ -121,7 +121,7 @@ class Lumping {
 
   /// Springs of rows that hold: of closed contacts, of friction that sticks there.
   void hold() {
-    const Vector stiffness = problem_.row_stiffness();
+    const Vector& stiffness = s_.measure().stiffness();
     const auto& slipping = s_.result().slipping;
     const auto at = [&](int r, bool holds) { spring_[r] = (holds ? kRigid : kLoose) * stiffness[r]; };
     for (int r = 0; r < s_.rows(); ++r) at(r, s_.active(r));

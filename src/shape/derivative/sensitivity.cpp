@@ -49,7 +49,7 @@ Sensitivity::Sensitivity(std::shared_ptr<const scene::Solution> solution, std::s
   require_differentiable();
   const Problem& problem = solution_->model().problem;
   const problem::State& state = solution_->result().state;
-  const double error = problem::natural_residual(problem, problem::jumps(problem, state.u), state.lambda, problem.row_stiffness());
+  const double error = problem::natural_residual(problem, problem::jumps(problem, state.u), state.lambda, solution_->measure().stiffness());
   law_ = law_derivative(problem, state, settings.touching, kResiduals * error * state.lambda.norm());
   if (!condenser_) condenser_ = std::make_shared<problem::Condenser>();
   rigid_ = problem::rigid_motions(problem);

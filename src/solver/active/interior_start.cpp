@@ -44,8 +44,8 @@ Vector bent(const Problem& problem, HeldStiffness& stiffness) {
 }
 
 /// What counts as a row's force in any part at rest, and as a displacement of bodies bent by their load. Rows out of reach of that never close.
-std::pair<double, double> force_and_length(const Problem& problem, const Vector& bent, RowLaws& laws) {
-  const problem::Measure rest(problem), moved(problem, problem::State{bent, Vector::Zero(problem.rows())});
+std::pair<double, double> force_and_length(const Problem& problem, const problem::Measure& rest, const Vector& bent, RowLaws& laws) {
+  const problem::Measure moved(problem, problem::State{bent, Vector::Zero(problem.rows())});
   double force = 0, length = 0;
   for (int p = 0; p < rest.parts().count; ++p) force = std::max(force, rest.force(p)), length = std::max(length, moved.length(p));
   force /= std::sqrt(problem.rows());
@@ -59,8 +59,8 @@ std::pair<double, double> force_and_length(const Problem& problem, const Vector&
 /// w is λ, x is u, y = z⁺ − z⁻.
 class InteriorBarrier final : public program::Barrier {
  public:
-  InteriorBarrier(const Problem& problem, const RowLaws& laws, std::pair<double, double> scale, HeldStiffness& stiffness)
-      : Barrier(laws.low, laws.high), problem_(problem), laws_(laws), force_(scale.first), length_(scale.second), stiffness_(stiffness), f_(problem.load()), own_(problem.row_stiffness()) {
+  InteriorBarrier(const Problem& problem, const RowLaws& laws, const problem::Measure& rest, std::pair<double, double> scale, HeldStiffness& stiffness)
+      : Barrier(laws.low, laws.high), problem_(problem), laws_(laws), force_(scale.first), length_(scale.second), stiffness_(stiffness), f_(problem.load()), own_(rest.stiffness()) {
     at_.x = Vector::Zero(problem.unknowns());
     place(Vector::Zero(rows()).cwiseMax(low_).cwiseMin(high_), force_, force_ * length_);
   }
@@ -97,7 +97,7 @@ class InteriorBarrier final : public program::Barrier {
   bool factor(const Vector& theta) override {
     spring_ = Vector::Zero(rows());
     for (int r = 0; r < rows(); ++r)
-      if (!fixed(r)) spring_[r] = 1 / std::max(compliance(r) + theta[r], own_[r] > 0 ? kRigid / own_[r] : 1e-300);
+      if (!fixed(r)) spring_[r] = 1 / std::max(compliance(r) + theta[r], kRigid / own_[r]);
     return stiffness_.factor(spring_, std::vector<char>(problem_.unknowns(), 0));
   }
 
@@ -111,7 +111,8 @@ class InteriorBarrier final : public program::Barrier {
   const RowLaws& laws_;
   const double force_, length_;
   HeldStiffness& stiffness_;
-  const Vector f_, own_;
+  const Vector f_;
+  const Vector& own_;
   Vector equilibrium_, compatibility_, spring_;  ///< spring_: D⁻¹
 };
 
@@ -122,7 +123,8 @@ InteriorPointState interior_start(const Problem& problem, HeldStiffness& stiffne
   const Vector u = problem.rows() > 0 ? bent(problem, stiffness) : Vector();
   if (u.size() == 0) return out;
   RowLaws laws = row_laws(problem);
-  InteriorBarrier barrier(problem, laws, force_and_length(problem, u, laws), stiffness);
+  const problem::Measure rest(problem);
+  InteriorBarrier barrier(problem, laws, rest, force_and_length(problem, rest, u, laws), stiffness);
   for (barrier.evaluate(); out.iterations < kMostInteriorSteps && !barrier.done(tol) && !monitor.stop() && barrier.step(); barrier.evaluate()) ++out.iterations;
   barrier.round(out);
   return out;

@@ -1,5 +1,6 @@
 #include "solver/active/refine.hpp"
 
+#include "problem/measure.hpp"
 #include "solver/active/pdas.hpp"
 #include "solver/core/treatable.hpp"
 #include "solver/rows/natural_map.hpp"
@@ -25,7 +26,7 @@ std::optional<State> step(const Problem& problem, const CondensedProblem& conden
   const Vector balanced = from.u.here() + condensed.response(out_of_balance(problem, from), Vector::Zero(condensed.kernel_size()));
   const Vector x = problem.B * balanced - problem.c;
   const CondensedProblem missing = condensed.missing(from.lambda, x);
-  const NaturalMap map(problem, missing, stiffness_of_rows(condensed));
+  const NaturalMap map(problem, missing, problem::Measure(problem, condensed).stiffness());
   // With d the correction to λ: λ + d = P + S(λ + d + ρ(x − Wd + Nα) − y) and y = λ + ρx. That is d = (P − λ) + S(d + ρ(x − Wd + Nα) − ρx),
   // the map's own equation on the missing problem with P − λ for P and ρx for y.
   NaturalMap::Value value = map.with_jump(from.lambda, x);

@@ -4,7 +4,7 @@
 
 #include "algebra/dense/decompositions.hpp"
 #include "program/interior_point.hpp"
-#include "solver/rows/natural_map.hpp"
+#include "problem/measure.hpp"
 
 namespace dotyk::solver {
 namespace {
@@ -25,7 +25,7 @@ constexpr double kParallel = 1e-8, kProved = 1e-6;  // relative
 class FrictionPrograms {
  public:
   FrictionPrograms(const Problem& problem, const CondensedProblem& condensed, const FrictionalMotion& motion)
-      : problem_(problem), root_(stiffness_of_rows(condensed).cwiseSqrt()), W_(root_.asDiagonal() * condensed.W() * root_.asDiagonal()),
+      : problem_(problem), root_(problem::Measure(problem, condensed).stiffness().cwiseSqrt()), W_(root_.asDiagonal() * condensed.W() * root_.asDiagonal()),
         x0_(root_.cwiseProduct(condensed.x0())), N_(root_.asDiagonal() * DenseMatrix(motion.rigid.noticed_N)), e_(motion.rigid.noticed_e),
         slip_(motion.rigid.N * motion.amounts), work_(motion.work) {
     treatable_ = add_laws() && add_friction();

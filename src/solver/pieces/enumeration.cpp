@@ -3,6 +3,7 @@
 #include "algebra/dense/decompositions.hpp"
 #include "algebra/dense/dense.hpp"
 #include "algebra/dense/polyhedron.hpp"
+#include "problem/measure.hpp"
 #include "solver/rows/natural_map.hpp"
 #include "solver/core/require_solvable.hpp"
 
@@ -66,7 +67,7 @@ class BranchSearch {
  public:
   BranchSearch(const Problem& problem, const CondensedProblem& condensed, const problem::Clock& clock, Monitor& monitor)
       : problem_(problem), condensed_(condensed), clock_(clock), monitor_(monitor), choices_(choices_of(problem)),
-        map_(problem, condensed, stiffness_of_rows(condensed)), pieces_(problem.rows(), RowPiece::closed) {
+        map_(problem, condensed, problem::Measure(problem, condensed).stiffness()), pieces_(problem.rows(), RowPiece::closed) {
     for (const auto& point : problem.friction_points()) pieces_[point.first] = RowPiece::open;  // without friction
     // Rows of one piece are linear: what the map is anywhere.
     base_ = map_.sticking(std::vector<char>(problem.rows(), 0));

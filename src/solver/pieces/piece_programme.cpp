@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include "algebra/dense/dense.hpp"
-#include "solver/rows/natural_map.hpp"
+#include "problem/measure.hpp"
 
 namespace dotyk::solver {
 namespace {
@@ -23,7 +23,7 @@ constexpr double kMostColumns = 1e4;
 class ProgrammeBuilder : public PieceProgramme {
  public:
   ProgrammeBuilder(const Problem& problem, const CondensedProblem& condensed) : problem_(problem), condensed_(condensed), stated_(problem.rows(), 1) {
-    root = stiffness_of_rows(condensed).cwiseSqrt();
+    root = problem::Measure(problem, condensed).stiffness().cwiseSqrt();
     Q_ = DenseMatrix(problem.rows(), 0);
     if (condensed.kernel_size() > 0) {
       auto factors = algebra::orthogonal_factors(root.asDiagonal() * condensed.N());

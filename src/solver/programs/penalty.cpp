@@ -1,6 +1,7 @@
 #include "solver/programs/penalty.hpp"
 
 #include "algebra/dense/generalised_inverse.hpp"
+#include "problem/measure.hpp"
 #include "problem/residual.hpp"
 #include "solver/active/pdas.hpp"
 #include "solver/core/treatable.hpp"
@@ -16,11 +17,7 @@ using problem::RowGroup;
 
 /// Of the springs in series with the rows.
 Vector spring_stiffness(const Problem& problem, double factor) {
-  Vector p = factor * problem.row_stiffness();
-  const double largest = p.size() ? p.maxCoeff() : 0;
-  for (double& value : p)
-    if (!(value > 0)) value = largest > 0 ? largest : factor;
-  return p;
+  return factor * problem::Measure(problem).stiffness();
 }
 
 /// Is the law a spring itself? It then gets no other.

@@ -10,15 +10,6 @@ using algebra::SparseRows;
 using algebra::Vector;
 using problem::Problem;
 
-Vector stiffness_of_rows(const problem::CondensedProblem& condensed) {
-  const Vector compliance = condensed.W().diagonal();
-  const double least = compliance.size() ? 1e-14 * compliance.maxCoeff() : 0;
-  const auto yields = compliance.array() > least;
-  const Vector stiffness = yields.select(compliance.cwiseInverse(), 0.0);
-  const double greatest = stiffness.size() ? stiffness.maxCoeff() : 0;
-  return yields.select(stiffness, greatest > 0 ? greatest : 1.0);
-}
-
 NaturalMap::NaturalMap(const Problem& problem, const problem::CondensedProblem& condensed, const Vector& rho)
     : problem_(&problem), condensed_(&condensed), rho_(rho) {
   for (const auto& [group, k, first, n] : problem.friction_points())  // the projection onto a disc needs one ρ

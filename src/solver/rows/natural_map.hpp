@@ -16,10 +16,6 @@ struct Iterate {
   friend Iterate operator*(double s, const Iterate& a) { return {s * a.lambda, s * a.alpha}; }
 };
 
-/// 1/W_rr, the stiffness (force per displacement) that each row sees; rows that nothing moves take the greatest
-/// of the others'.
-algebra::Vector stiffness_of_rows(const problem::CondensedProblem& condensed);
-
 /// F(λ, α) = (λ_n − P(y_n), λ_t − π_b(y_t)), y = λ + ρx, on a condensed problem, and its generalised
 /// derivative.
 class NaturalMap {

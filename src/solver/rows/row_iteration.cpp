@@ -16,7 +16,7 @@ constexpr double kEps = std::numeric_limits<double>::epsilon();
 constexpr double kSumRoundings = 128;    // k: of the sums in x, and of the solve that made λ
 
 RowMeasure::RowMeasure(const problem::Problem& problem, const problem::CondensedProblem& condensed)
-    : condensed_(&condensed), c_(problem.c), measure_(problem, stiffness_of_rows(condensed)) {}
+    : condensed_(&condensed), c_(problem.c), measure_(problem, condensed) {}
 
 Vector RowMeasure::forces(const Vector& lambda) const {
   std::vector<double> of_part = measure_.parts().norm(lambda);

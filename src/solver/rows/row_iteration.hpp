@@ -23,7 +23,7 @@ class RowMeasure {
  public:
   RowMeasure(const problem::Problem& problem, const problem::CondensedProblem& condensed);
 
-  /// 1/W_rr; see stiffness_of_rows().
+  /// 1/W_rr.
   const algebra::Vector& stiffness() const { return measure_.stiffness(); }
   /// F by row, that of its part.
   algebra::Vector forces(const algebra::Vector& lambda) const;
