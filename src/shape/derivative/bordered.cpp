@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "base/error.hpp"
+#include "problem/measure.hpp"
 #include "program/active_set.hpp"
 
 namespace dotyk::shape {
@@ -20,34 +21,20 @@ using problem::RowGroup;
 
 /// What is nothing, row by row; and what were nothing but for the multipliers' errors.
 struct Nothing {
+  Nothing(const Problem& problem, const Vector& lambda, const Vector& x, double touching, double force_error) {
+    const problem::Measure measure(problem);
+    exact_force = measure.nothing(touching, lambda, x).force;
+    force = exact_force.cwiseMax(force_error);
+    gap = force.cwiseQuotient(measure.stiffness());
+  }
   Vector force, gap, exact_force;
 };
-
-Nothing nothing(const Problem& problem, const Vector& lambda, const Vector& x, double touching, double force_error) {
-  Vector stiffness = problem.row_stiffness();
-  const double stiffest = stiffness.size() ? stiffness.maxCoeff() : 1;
-  for (double& k : stiffness)
-    if (!(k > 0)) k = stiffest > 0 ? stiffest : 1;
-  double moved = 0;
-  for (int r = 0; r < x.size(); ++r) {
-    const double jump = std::abs(x[r] + problem.c[r]);
-    if (std::abs(problem.c[r]) < 1e6 * jump) moved = std::max(moved, jump);  // a gap that says "never" is no measure
-  }
-  Nothing n{Vector(x.size()), Vector(x.size()), Vector(x.size())};
-  for (int r = 0; r < x.size(); ++r) {
-    const double c = std::abs(problem.c[r]) < 1e6 * moved ? std::abs(problem.c[r]) : 0;
-    n.exact_force[r] = touching * (lambda.lpNorm<Eigen::Infinity>() + stiffness[r] * std::max(c, moved));
-    n.force[r] = std::max(force_error, n.exact_force[r]);
-    n.gap[r] = n.force[r] / stiffness[r];
-  }
-  return n;
-}
 
 class Branches {
  public:
   Branches(const Problem& problem, const problem::State& state, double touching, double force_error)
       : problem_(problem), lambda_(state.lambda), x_(problem::jumps(problem, state.u)),
-        nothing_(nothing(problem, lambda_, x_, touching, force_error)), unknown_(problem.rows(), -1), weak_(problem.rows(), 0) {}
+        nothing_(problem, lambda_, x_, touching, force_error), unknown_(problem.rows(), -1), weak_(problem.rows(), 0) {}
 
   LawDerivative operator()() {
     for (const RowGroup& group : problem_.groups)

@@ -31,10 +31,8 @@ struct LawDerivative {
   int size() const { return static_cast<int>(C.size()); }
 };
 
-/// `touching`: what counts as nothing, relative: of a multiplier of row r, touching (max|λ| + k_r max(|c_r|, moved)), k_r its
-/// stiffness and `moved` the greatest |Bu|; of a gap or slip that over k_r; but at
-/// least force_error, by which multipliers may be wrong. A row that touches with no force is in weak
-/// contact. So are rows of other laws at the end of what they can bear.
+/// `touching`: what counts as nothing, relative, as problem::Measure::nothing() says; of multipliers at least force_error, by which they may
+/// be wrong, and of gaps and slip at least that over the row's stiffness. A row that touches with no force is in weak contact. So are rows of other laws at the end of what they can bear.
 /// Throws InputError, naming the node, where force_error alone makes nothing of a force, gap or slip, where friction is about to slip or stick (‖λ_t‖ is the bound, the slip nothing; of
 /// Coulomb's also weak contact), and where a spring with two stiffnesses bears nothing: the derivative is then not one of
 /// a quadratic program.

@@ -5,6 +5,7 @@
 namespace dotyk::solver {
 
 using algebra::Vector;
+using problem::Nothing;
 using problem::Problem;
 using problem::Projection;
 
@@ -15,13 +16,13 @@ Projection closed(double y) { return {y, 1}; }
 
 /// Is a row whose λ followed x at the end of that, up to rounding, or one whose λ did not at its beginning?
 /// Where one spring follows another, that end is 0.
-bool at_kink(const problem::ScalarRow& row, double lambda, double x, const Noise& noise, const Linearisation& previous) {
+bool at_kink(const problem::ScalarRow& row, double lambda, double x, const Nothing& rounding, const Linearisation& previous) {
   const auto& [law, k, r] = row;
   const auto [low, high] = law.multipliers(k);
-  if (previous.active[r] && problem::kinked_at_zero(law, k)) return std::abs(lambda) <= noise.force[r];
-  if (previous.active[r]) return std::min(std::abs(lambda - low), std::abs(lambda - high)) <= noise.force[r];
+  if (previous.active[r] && problem::kinked_at_zero(law, k)) return std::abs(lambda) <= rounding.force[r];
+  if (previous.active[r]) return std::min(std::abs(lambda - low), std::abs(lambda - high)) <= rounding.force[r];
   const auto [from, to] = problem::following(law, k);
-  return std::abs(x - (previous.value[r] >= high ? to : from)) <= noise.gap[r];
+  return std::abs(x - (previous.value[r] >= high ? to : from)) <= rounding.gap[r];
 }
 
 /// The friction of one point, where the normal rows have their values already. A point that was to slip and moved against its force sticks first: were rho x
@@ -90,14 +91,14 @@ std::size_t Linearisation::fingerprint() const {
 
 int Linearisation::active_count() const { return std::accumulate(active.begin(), active.end(), 0); }
 
-Linearisation linearise(const Problem& problem, const Vector& lambda, const Vector& x,
-                        const Vector& rho, const Noise& noise, const Linearisation* previous) {
+Linearisation linearise(const Problem& problem, const Vector& lambda, const Vector& x, const Vector& rho, const Linearisation* previous,
+                        const Nothing& rounding) {
   Linearisation l(problem.rows());
   for (const problem::ScalarRow& row : problem.scalar_rows()) {
     const auto& [law, k, r] = row;
     double y = lambda[r] + rho[r] * x[r];
     if (previous && law.unilateral()) y = previous->active[r] ? lambda[r] : rho[r] * x[r];
-    if (previous && at_kink(row, lambda[r], x[r], noise, *previous))
+    if (previous && at_kink(row, lambda[r], x[r], rounding, *previous))
       l.set(r, y, {previous->active[r] ? previous->slope[r] * y : previous->value[r], previous->slope[r]});
     else
       l.set(r, y, law.project(k, y, rho[r]));

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "problem/problem.hpp"
+#include "problem/measure.hpp"
 
 namespace dotyk::solver {
 
@@ -51,17 +51,11 @@ struct Linearisation {
   int active_count() const;
 };
 
-/// What rounding leaves, row by row, of a zero multiplier and of a zero gap.
-struct Noise {
-  algebra::Vector force, gap;
-};
-
 /// Linearises at (λ, x). With `previous`, (λ, x) solves it: of a unilateral row one of λ and x is zero but
-/// for rounding, which ρ must not blow up, so the other one alone decides. A row at a kink of its law, up to its noise, keeps its
-/// branch, for touching without force it would flip with rounding.
-Linearisation linearise(const problem::Problem& problem, const algebra::Vector& lambda,
-                        const algebra::Vector& x, const algebra::Vector& rho, const Noise& noise,
-                        const Linearisation* previous);
+/// for rounding, which ρ must not blow up, so the other one alone decides. A row at a kink of its law, up to `rounding`, keeps its
+/// branch, for touching without force it would flip.
+Linearisation linearise(const problem::Problem& problem, const algebra::Vector& lambda, const algebra::Vector& x, const algebra::Vector& rho,
+                        const Linearisation* previous = nullptr, const problem::Nothing& rounding = {});
 
 /// Has the row a branch that bears nothing, which a flag of a start can name: is it unilateral, or one-sided with springs or a
 /// greatest force?

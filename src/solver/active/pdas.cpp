@@ -84,7 +84,7 @@ void conclude(SetIteration& it, End end, bool inside, const std::string& rescued
 /// it, and rounding of the way costs digits of the stresses. Such rows are held where they are at rest, x_r = −c_r, where the laws allow it.
 void come_to_rest(SetIteration& it) {
   const problem::Problem& problem = it.problem;
-  const Noise before = it.noise(it.lambda, it.x);
+  const problem::Nothing before = it.rounding(it.lambda, it.x);
   if (it.lambda.size() == 0) return;
   if (!problem.loaded() && (it.lambda.cwiseAbs() - before.force).maxCoeff() <= 0) {  // there is no scale to rest by
     if ((problem.c + before.gap).minCoeff() >= 0) it.lambda.setZero(), it.x = -problem.c, it.settled = problem.hides() ? problem::Displacement(algebra::Field(problem::vectors(problem))) : Vector::Zero(problem.unknowns());
@@ -101,8 +101,8 @@ void come_to_rest(SetIteration& it) {
   Vector lambda, x;
   if (it.step->solve(rest, lambda, x)) {
     while (it.step->sharpen(lambda, x)) {}
-    const Noise small = it.noise(lambda, x);
-    Linearisation found = linearise(problem, lambda, x, it.rho, small, &it.l);
+    const problem::Nothing small = it.rounding(lambda, x);
+    Linearisation found = linearise(problem, lambda, x, it.rho, &it.l, small);
     bool allowed = true;
     for (const int r : resting) {
       allowed = allowed && std::abs(lambda[r]) <= small.force[r];

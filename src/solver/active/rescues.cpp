@@ -37,10 +37,10 @@ std::string by_sweeps(SetIteration& it, End end) {
   for (int round = 0; round < kSweepRounds && !it.monitor.stop(); ++round) {
     for (int k = 0; k < kSweeps; ++k) descent.sweep();
     descent.update_equilibrium();
-    it.l = linearise(problem, descent.lambda(), descent.jump(), it.rho, it.noise(descent.lambda(), descent.jump()), nullptr);
+    it.l = linearise(problem, descent.lambda(), descent.jump(), it.rho);
     Vector lambda, x;
     if (!newton->solve(it.l, lambda, x)) continue;
-    const Linearisation next = linearise(problem, lambda, x, it.rho, it.noise(lambda, x), &it.l);
+    const Linearisation next = linearise(problem, lambda, x, it.rho, &it.l, it.rounding(lambda, x));
     if (it.l.changed(next).empty()) return "sweeps that decrease the dual energy";
     descent.take_if_lower(lambda);
   }
@@ -60,7 +60,7 @@ std::string by_barrier(SetIteration& it, End) {
   Vector jump = it.condensed().jump(s.lambda, s.alpha);
   for (int r = 0; r < jump.size(); ++r)
     if (s.side[r] == 0) jump[r] = 0;  // the barrier's error, which ρ can blow up until it leaves the bounds
-  it.go_on_from(s.lambda, jump, it.noise(s.lambda, -it.problem.c));
+  it.go_on_from(s.lambda, jump);
   return text(s.iterations, " steps of a barrier method");
 }
 
@@ -68,7 +68,7 @@ std::string by_interior_point(SetIteration& it, End) {
   it.monitor.phase("an interior point method");
   const InteriorPointState s = interior_start(it.problem, it.stiffness(), kBeginning, it.monitor);
   if (s.iterations == 0) return "";
-  it.go_on_from(s.lambda, s.x, it.noise(s.lambda, s.x));
+  it.go_on_from(s.lambda, s.x);
   return text(s.iterations, " steps of an interior point method");
 }
 

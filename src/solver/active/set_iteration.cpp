@@ -72,18 +72,20 @@ void hold(const Problem& problem, const problem::RigidMotions& rigid, std::vecto
   }
 }
 
+/// Of the rows: where their laws have branches to tell apart, law and bodies yield one after the other.
+Vector with_laws(const Problem& problem) {
+  Vector stiffness = problem.row_stiffness();
+  for (const auto& [law, k, r] : problem.scalar_rows())
+    if (const auto own = law.springs(k); own && !law.linear_stiffness(k) && std::max(own->below, own->above) > 0)
+      stiffness[r] /= 1 + stiffness[r] / std::max(own->below, own->above);
+  return stiffness;
+}
+
 }  // namespace
 
 SetIteration::SetIteration(const Problem& problem, const Pdas& settings, Monitor& monitor)
     : problem(problem), settings(settings), monitor(monitor), solvable(require_solvable(problem, result.clock, monitor)),
-      rho(settings.rho * problem.row_stiffness()), parts_(problem::parts(problem)) {
-  // A row that no unknown moves has no stiffness; any ρ will do.
-  const double largest = rho.size() && rho.maxCoeff() > 0 ? rho.maxCoeff() : 1;
-  for (int r = 0; r < rho.size(); ++r)
-    if (!(rho[r] > 0)) rho[r] = largest;
-  for (const auto& [law, k, r] : problem.scalar_rows())  // where there are branches to tell apart, law and bodies yield one after the other
-    if (const auto own = law.springs(k); own && !law.linear_stiffness(k) && std::max(own->below, own->above) > 0)
-      rho[r] /= 1 + rho[r] / std::max(own->below, own->above);
+      measure(problem, with_laws(problem)), rho(settings.rho * measure.stiffness()) {
   lambda = Vector::Zero(problem.rows());
   result.method = settings.reduced ? "pdas" : "pdas (held)";
   place_screws();
@@ -108,7 +110,7 @@ void SetIteration::begin_from(const problem::State& from) {
     for (const auto& [law, k, r] : problem.scalar_rows())
       if (law.unilateral()) jump[r] = begun.lambda[r] > 0 ? 0 : -1;  // only the sign counts
   step->begin(begun.u);
-  l = held(linearise(problem, begun.lambda, jump, rho, {}, nullptr), -problem.c);
+  l = held(linearise(problem, begun.lambda, jump, rho), -problem.c);
   result.clock.iterate += watch.lap();
 }
 
@@ -120,12 +122,12 @@ void SetIteration::place_screws() {
   note_screws();
 }
 
-/// Where nothing is loaded λ itself is noise.
-double SetIteration::noise_of_screws() const { return std::max(1e-9 * lambda.lpNorm<Eigen::Infinity>(), noise(lambda, x).force.maxCoeff()); }
+/// Where nothing is loaded λ itself is rounding.
+double SetIteration::rounding_of_screws() const { return std::max(1e-9 * lambda.lpNorm<Eigen::Infinity>(), rounding(lambda, x).force.maxCoeff()); }
 
 /// Screws that pull move, and the iteration goes on.
 bool SetIteration::move_screws() {
-  if (screws->moves() >= settings.max_moves || !screws->move(lambda, noise_of_screws())) return false;
+  if (screws->moves() >= settings.max_moves || !screws->move(lambda, rounding_of_screws())) return false;
   result.screw_moves = screws->moves();
   note_screws();
   l = held(std::move(l), x);
@@ -218,7 +220,7 @@ std::optional<End> SetIteration::advance() {
   record(next);
   if (whole && at_rest(next)) {
     if (!problem.friction.empty()) result.active_sets.push_back(next.active), result.slipping = next.slipping;
-    if (!screws || !screws->pulls(lambda, noise_of_screws())) return End::confirmed;
+    if (!screws || !screws->pulls(lambda, rounding_of_screws())) return End::confirmed;
     return move_screws() ? std::nullopt : std::optional(End::misplaced);
   }
   l = std::move(next);
@@ -228,7 +230,7 @@ std::optional<End> SetIteration::advance() {
 /// ‖λ − P(λ + ρx)‖ beyond rounding, of ‖λ‖.
 double SetIteration::off() const {
   const double force = lambda.norm();
-  const Vector beyond = problem::distances_from_laws(problem, x, lambda, rho).cwiseAbs() - noise(lambda, x).force;
+  const Vector beyond = problem::distances_from_laws(problem, x, lambda, rho).cwiseAbs() - rounding(lambda, x).force;
   return beyond.cwiseMax(0).norm() / (force > 0 ? force : 1);
 }
 
@@ -258,25 +260,10 @@ bool SetIteration::at_rest(const Linearisation& next) const {
 
 /// What the state asks for, and which rows that changes.
 Linearisation SetIteration::follow() {
-  Linearisation next = held(linearise(problem, lambda, x, rho, noise(lambda, x), &l), x);
+  Linearisation next = held(linearise(problem, lambda, x, rho, &l, rounding(lambda, x)), x);
   if (!problem.friction.empty()) next.off = off();
   changed_ = next.changed(l);
   return next;
-}
-
-Noise SetIteration::noise(const Vector& lambda, const Vector& x) const {
-  if (lambda.size() == 0) return {lambda, lambda};
-  Vector jump = (x + problem.c).cwiseAbs();
-  for (Eigen::Index r = 0; r < x.size(); ++r)
-    if (!(std::abs(problem.c[r]) < 1e6 * jump[r])) jump[r] = 0;
-  const std::vector<double> force = parts_.greatest(lambda), moved = parts_.greatest(jump);
-  const Vector stiffness = rho / settings.rho;
-  Vector most(x.size());
-  for (Eigen::Index r = 0; r < x.size(); ++r) {
-    const int part = parts_.of_row[r];
-    most[r] = 1e-13 * (force[part] + stiffness[r] * std::max(std::abs(problem.c[r]), moved[part]));
-  }
-  return {most, most.cwiseQuotient(stiffness)};
 }
 
 void SetIteration::record(const Linearisation& next) {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "base/stopwatch.hpp"
-#include "problem/parts.hpp"
+#include "problem/measure.hpp"
 #include "solver/active/held_stiffness.hpp"
 #include "solver/active/pdas.hpp"
 #include "solver/active/screws.hpp"
@@ -30,10 +30,9 @@ class SetIteration {
   End iterate(int most, int patience);
   int left() const { return settings.max_iterations - result.iterations; }
   /// Goes on from a state (λ, x).
-  void go_on_from(const algebra::Vector& lambda, const algebra::Vector& x, const Noise& noise) { l = held(linearise(problem, lambda, x, rho, noise, nullptr), x); }
-  /// What rounding leaves on rows that touch without force: a few digits of the greatest multiplier of their part, and of the displacements and the row's
-  /// own gap that cancel in x, each turned into the other by the row's stiffness. A gap that says "never" (1e30) is no measure of the others' rounding.
-  Noise noise(const algebra::Vector& lambda, const algebra::Vector& x) const;
+  void go_on_from(const algebra::Vector& lambda, const algebra::Vector& x) { l = held(linearise(problem, lambda, x, rho), x); }
+  /// What rounding leaves on rows that touch without force.
+  problem::Nothing rounding(const algebra::Vector& lambda, const algebra::Vector& x) const { return measure.nothing(1e-13, lambda, x); }
   /// The linearisation with rows added where a rigid motion would be free.
   Linearisation held(Linearisation l, const algebra::Vector& x) const;
   /// Factored on first use.
@@ -50,7 +49,8 @@ class SetIteration {
   Result result;
   const Solvable solvable;
   const problem::RigidMotions& rigid = solvable.rigid;
-  algebra::Vector rho;  ///< of the rows
+  const problem::Measure measure;  ///< law and bodies of a row yield one after the other
+  const algebra::Vector rho;       ///< of the rows
   Linearisation l;
   algebra::Vector lambda, x;
   std::optional<algebra::Vector> alpha;    ///< of rigid motions, where λ is not the last step's
@@ -67,7 +67,7 @@ class SetIteration {
   void begin_from(const problem::State& from);
   void place_screws();
   void note_screws() { result.screws.push_back({screws->rows(), screws->regularity(), screws->determinant()}); }
-  double noise_of_screws() const;
+  double rounding_of_screws() const;
   bool move_screws();
   bool crawls() const;
   std::optional<End> advance();
@@ -78,7 +78,6 @@ class SetIteration {
   bool at_rest(const Linearisation& next) const;
   void record(const Linearisation& next);
 
-  problem::Parts parts_;
   problem::Condenser own_;
   const problem::CondensedProblem* condensed_ = nullptr;
   int iterations_before_ = 0;                 ///< of the linear solver, where another solve has used it
