@@ -2,7 +2,6 @@
 
 #include "algebra/dense/decompositions.hpp"
 #include "algebra/dense/null_space.hpp"
-#include "problem/parts.hpp"
 
 namespace dotyk::problem {
 
@@ -13,19 +12,12 @@ using algebra::Vector;
 
 namespace {
 
-double greatest_force(const Problem& problem, const Vector& lambda) {
-  double most = lambda.lpNorm<Eigen::Infinity>();
-  for (const Block& block : problem.blocks) most = std::max(most, block.f.lpNorm<Eigen::Infinity>());
-  return most;
-}
-
 /// What the rows ask of a motion at these multipliers, as combinations of rows of B: held · r = 0, and limited · r ≤ slack.
 class Conditions {
  public:
   Conditions(const Problem& problem, const State& state, double tolerance, bool springs_hold)
-      : springs_hold_(springs_hold), x_(jumps(problem, state.u)), lambda_(state.lambda), small_(small_forces(problem, state.lambda, tolerance)),
-        stiffness_(problem.row_stiffness()),
-        left_(10 * tolerance * greatest_force(problem, state.lambda)) {
+      : springs_hold_(springs_hold), x_(jumps(problem, state.u)), lambda_(state.lambda), measure_(problem, state),
+        none_(problem, measure_, state.lambda, tolerance) {
     for (const RowGroup& group : problem.groups)
       for (int k = 0; k < group.count; ++k) add(*group.law, group.first + k, k);
     for (const FrictionGroup& group : problem.friction)
@@ -45,11 +37,9 @@ class Conditions {
       return;
     }
     const Interval following = problem::following(law, k);
-    // On a row that is open, or beyond its law's other end, a multiplier is what the method left.
-    const auto open = [&](double force, double gap) { return force <= small_[row] || (force <= left_ && force <= kBesideGap * stiffness_[row] * gap); };
-    if (open(lambda_[row] - low, following.low - x_[row]))
+    if (none_(row, lambda_[row] - low, following.low - x_[row]))
       limit(row, 1, following.low - x_[row]);
-    else if (open(high - lambda_[row], x_[row] - following.high))
+    else if (none_(row, high - lambda_[row], x_[row] - following.high))
       limit(row, -1, x_[row] - following.high);
     else
       held_.emplace_back(held_count_++, row, 1.0);
@@ -57,7 +47,7 @@ class Conditions {
 
   void add(const FrictionGroup& group, int k) {
     const int first = group.row(k), d = group.components;
-    const double bound = group.bound(k, lambda_), small = small_[first];
+    const double bound = group.bound(k, lambda_), small = none_.small(first);
     if (bound <= small) return;
     const Vector own = lambda_.segment(first, d);
     if (own.norm() < bound - small) {
@@ -81,49 +71,34 @@ class Conditions {
   bool springs_hold_;
   Vector x_;
   const Vector& lambda_;
-  Vector small_, stiffness_;  ///< by row: forces that are none; see Problem::row_stiffness()
-  double left_;                ///< what a method may leave of a force
+  Measure measure_;
+  NoForce none_;
   algebra::Triplets held_, limited_;
   int held_count_ = 0;
   std::vector<double> slack_;
 };
 
-/// The greatest multiplier of each part; where nothing loads it, of all parts.
-std::vector<double> greatest_of_loaded(const Problem& problem, const Parts& parts, const Vector& lambda) {
-  std::vector<double> greatest = parts.greatest(lambda);
-  std::vector<char> loaded(greatest.size(), 0);
-  for (std::size_t b = 0; b < problem.blocks.size(); ++b)
-    if (!problem.blocks[b].f.isZero(0)) loaded[parts.of_block[b]] = 1;
-  for (std::size_t p = 0; p < greatest.size(); ++p)
-    if (!loaded[p]) greatest[p] = lambda.lpNorm<Eigen::Infinity>();
-  return greatest;
-}
-
 }  // namespace
 
-Vector small_forces(const Problem& problem, const Vector& lambda, double tolerance) {
-  constexpr double kOfAll = 1e-12;  // forces below this fraction of the greatest one are rounding of the solve
-  if (lambda.size() == 0) return lambda;
-  const Parts parts = problem::parts(problem);
-  const std::vector<double> greatest = greatest_of_loaded(problem, parts, lambda);
-  std::vector<double> of_body(problem.blocks.size(), 0);
-  std::vector<double> of_rounding;  // by block: of its load, without one of the greatest force of its part
-  for (std::size_t b = 0; b < problem.blocks.size(); ++b) {
-    const double load = problem.blocks[b].f.lpNorm<Eigen::Infinity>();
-    of_rounding.push_back(kOfAll * (load > 0 ? load : greatest[parts.of_block[b]]));
-  }
+NoForce::NoForce(const Problem& problem, const Measure& measure, const Vector& lambda, double tolerance)
+    : measure_(measure), tolerance_(tolerance), small_(Vector::Constant(lambda.size(), INFINITY)) {
+  constexpr double kRounding = 1e-12;
+  std::vector<double> on_block(problem.blocks.size(), 0);
   const auto each = [&](const auto& visit) {
     for (int r = 0; r < problem.rows(); ++r)
-      for (SparseRows::InnerIterator it(problem.B, r); it; ++it) visit(r, problem.block_of(it.col()));
+      for (SparseRows::InnerIterator it(problem.B, r); it; ++it) visit(r, on_block[problem.block_of(it.col())]);
   };
-  each([&](int r, std::size_t b) { of_body[b] = std::max(of_body[b], std::abs(lambda[r])); });
-  Vector least = Vector::Constant(lambda.size(), lambda.lpNorm<Eigen::Infinity>()), rounding = Vector::Zero(lambda.size());
-  each([&](int r, std::size_t b) {
-    if (of_body[b] > least[r]) return;
-    least[r] = of_body[b];
-    rounding[r] = of_rounding[b];
-  });
-  return (tolerance * least).cwiseMax(rounding);
+  each([&](int r, double& most) { most = std::max(most, std::abs(lambda[r])); });
+  each([&](int r, double most) { small_[r] = std::min(small_[r], most); });
+  for (int r = 0; r < problem.rows(); ++r) {
+    const double force = measure.force_of_row(r);
+    small_[r] = std::max(tolerance * (std::isfinite(small_[r]) ? small_[r] : force), kRounding * force);
+  }
+}
+
+bool NoForce::operator()(int row, double force, double gap) const {
+  constexpr double kLeft = 10, kBesideGap = 1e-3;  // tolerances of F that a method may leave of a force; a force that yields less than this of the gap
+  return force <= small_[row] || (force <= kLeft * tolerance_ * measure_.force_of_row(row) && force <= kBesideGap * measure_.stiffness()[row] * gap);
 }
 
 FreeMotions free_motions(const Problem& problem, const State& state, double tolerance, bool springs_hold) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "problem/problem.hpp"
+#include "problem/measure.hpp"
 #include "problem/rigid_motions.hpp"
 
 namespace dotyk::problem {
@@ -24,14 +24,25 @@ struct FreeMotions {
 };
 inline constexpr int kMostModes = 30, kMostFree = 600;
 
-/// By row, the forces that are none: those within `tolerance` of the greatest |λ| on a body that the row touches, of two bodies the lesser, as forces
-/// on one body do not say what is small for another; those within rounding of that body's load, or where it has none of the greatest of all, as well.
-algebra::Vector small_forces(const Problem& problem, const algebra::Vector& lambda, double tolerance);
+/// Which forces of a state are none.
+class NoForce {
+ public:
+  /// `measure` must outlive the object.
+  NoForce(const Problem& problem, const Measure& measure, const algebra::Vector& lambda, double tolerance);
+  /// Is a force that is beyond what its row bears anyhow, while the row is open by `gap` there? If it is small(), or on an open row no more than
+  /// what a method leaves.
+  bool operator()(int row, double force, double gap) const;
+  /// `tolerance` of the greatest |λ| on a body that the row touches, of two bodies the lesser, as forces on one body do not say what is small for
+  /// another; at least rounding of F.
+  double small(int row) const { return small_[row]; }
 
-/// Of a gap: a force that yields less on a row which is open that far is what the method left.
-inline constexpr double kBesideGap = 1e-3;
+ private:
+  const Measure& measure_;
+  double tolerance_;
+  algebra::Vector small_;
+};
 
-/// `tolerance`: of small_forces(); multipliers so near to a bound are on it. `springs_hold`: do rows of linear springs hold what moves them?
+/// `tolerance`: of NoForce; multipliers so near to a bound are on it. `springs_hold`: do rows of linear springs hold what moves them?
 FreeMotions free_motions(const Problem& problem, const State& state, double tolerance, bool springs_hold = true);
 
 }  // namespace dotyk::problem

@@ -30,14 +30,12 @@ void open_without_force(const problem::Problem& problem, solver::Result& result)
   if (result.active_sets.empty()) return;
   const Vector& lambda = result.state.lambda;
   const Vector x = problem::jumps(problem, result.state.u);
-  const Vector none = problem::small_forces(problem, lambda, kOnBound);
-  const Vector stiffness = problem.row_stiffness();
   const problem::Measure measure(problem, result.state);
+  const problem::NoForce none(problem, measure, lambda, kOnBound);
   for (const problem::RowGroup& group : problem.groups)
     for (int r = group.first; group.law->unilateral() && r < group.first + group.count; ++r) {
-      const double force = measure.force_of_row(r);
       const bool parted = x[r] < -kOnBound * measure.length_of_row(r);
-      if (lambda[r] <= kRounding * force || (parted && (lambda[r] <= none[r] || (lambda[r] <= 10 * kOnBound * force && lambda[r] <= -problem::kBesideGap * stiffness[r] * x[r])))) result.active_sets.back()[r] = 0;
+      if (lambda[r] <= kRounding * measure.force_of_row(r) || (parted && none(r, lambda[r], -x[r]))) result.active_sets.back()[r] = 0;
     }
 }
 
