@@ -2,7 +2,7 @@
 
 #include "algebra/dense/bounded_least_squares.hpp"
 #include "algebra/dense/cone_least_squares.hpp"
-#include "problem/parts.hpp"
+#include "problem/measure.hpp"
 
 namespace dotyk::problem {
 
@@ -11,31 +11,19 @@ using algebra::Vector;
 
 namespace {
 
-/// The load's size in each of the problem's parts(), by row; 1 where there is none. In units of it no part is small beside another.
-struct Units {
-  Vector of_row, of_mode;
-  std::vector<char> loaded;  ///< by mode: is there a load on its part?
-};
-
-Units units(const RigidMotions& rigid, const Problem& problem) {
-  const Parts parts = problem::parts(problem);
-  Vector size = Vector::Zero(parts.count);
-  std::vector<int> part_of_mode;
-  for (std::size_t b = 0; b < problem.blocks.size(); ++b)
-    part_of_mode.insert(part_of_mode.end(), static_cast<std::size_t>(problem.blocks[b].kernel.cols()), parts.of_block[b]);
-  for (int k = 0; k < rigid.count(); ++k) size[part_of_mode[k]] = std::hypot(size[part_of_mode[k]], rigid.e[k]);
-  std::vector<char> loaded;
-  for (const int part : part_of_mode) loaded.push_back(size[part] > 0);
-  size = size.unaryExpr([](double s) { return s > 0 && std::isfinite(s) ? s : 1; }).eval();
-  return {size(parts.of_row), size(part_of_mode), std::move(loaded)};
-}
-
 /// Work below this part of the load's size counts as none: rounding of Rᵀf and of the modes.
 constexpr double kRounding = 1e-10;
 /// A load this close (as an angle) to the edge of what can be carried is a limit case.
 constexpr double kLimit = 1e-6;
 
 Vector greatest_one(const Vector& v) { return v / v.lpNorm<Eigen::Infinity>(); }
+
+/// The part of the problem that each rigid motion belongs to.
+std::vector<int> part_of_modes(const Problem& problem, const Parts& parts) {
+  std::vector<int> part;
+  for (std::size_t b = 0; b < problem.blocks.size(); ++b) part.insert(part.end(), static_cast<std::size_t>(problem.blocks[b].kernel.cols()), parts.of_block[b]);
+  return part;
+}
 
 /// What the laws can carry: multipliers in a convex set, and the rows of N that they act on, one a multiplier.
 struct Carrying {
@@ -44,14 +32,14 @@ struct Carrying {
 };
 
 /// Coulomb's friction stands for forces in the cone at a point, normal ones included, beside those that the normal row's own law gives.
-Carrying carrying(const RigidMotions& rigid, const Problem& problem, const Vector& unit) {
+Carrying carrying(const RigidMotions& rigid, const Problem& problem, const Measure& unit) {
   Carrying all;
   std::vector<int> row;
   for (const RowGroup& group : problem.groups)
     for (int k = 0; k < group.count; ++k) {
       const Interval bounds = group.law->multipliers(k);
       const int r = group.first + k;
-      row.push_back(r), all.set.low.push_back(bounds.low / unit[r]), all.set.high.push_back(bounds.high / unit[r]);
+      row.push_back(r), all.set.low.push_back(bounds.low / unit.force_of_row(r)), all.set.high.push_back(bounds.high / unit.force_of_row(r));
     }
   const std::vector<const RowGroup*> law_of = problem.group_of_rows();
   for (const FrictionGroup& group : problem.friction)
@@ -59,7 +47,7 @@ Carrying carrying(const RigidMotions& rigid, const Problem& problem, const Vecto
       const int n = group.normal[k];
       const double slope = group.law->bound_slope(k), most = slope > 0 ? law_of[n]->law->multipliers(n - law_of[n]->first).high : INFINITY;
       const bool limited = slope > 0 && std::isfinite(most);  // then no force beyond the greatest bound, and none of its own along the normal
-      all.set.rounds.push_back({group.components, group.law->bound(k, limited ? most : 0) / unit[group.row(k)], limited ? 0 : slope});
+      all.set.rounds.push_back({group.components, group.law->bound(k, limited ? most : 0) / unit.force_of_row(group.row(k)), limited ? 0 : slope});
       if (slope > 0 && !limited) row.push_back(n);
       for (int i = 0; i < group.components; ++i) row.push_back(group.row(k) + i);
     }
@@ -110,7 +98,7 @@ std::optional<Vector> unbalanced(const RigidMotions& rigid, const Carrying& carr
 }
 
 /// From the load towards the middle of what rows with limits can carry, unit length; zero where there are none.
-Vector inwards(const RigidMotions& rigid, const Problem& problem, const Vector& unit, double load) {
+Vector inwards(const RigidMotions& rigid, const Problem& problem, const Measure& unit, double load) {
   Vector middle = Vector::Zero(problem.rows()), rays = middle;  // multipliers
   bool limits = false;
   for (const RowGroup& group : problem.groups)
@@ -118,7 +106,7 @@ Vector inwards(const RigidMotions& rigid, const Problem& problem, const Vector& 
       const auto [low, high] = group.law->multipliers(r - group.first);
       const bool below = std::isfinite(low), above = std::isfinite(high);
       limits = limits || below || above;
-      middle[r] = (below && above ? (low + high) / 2 : below ? low : above ? high : 0) / unit[r];
+      middle[r] = (below && above ? (low + high) / 2 : below ? low : above ? high : 0) / unit.force_of_row(r);
       if (below != above) rays[r] = below ? 1 : -1;
     }
   if (!limits) return Vector::Zero(rigid.count());
@@ -131,7 +119,7 @@ Vector inwards(const RigidMotions& rigid, const Problem& problem, const Vector& 
 /// What is left unbalanced of a load turned by kLimit towards the nearest edge of what can be carried; zero where that
 /// is balanced, nothing where that is not known. Ten times as much away from the middle shows the motion that this edge
 /// is the end of; the shortest way to the edge is along that motion.
-std::optional<Vector> beyond_edge(const RigidMotions& rigid, const Problem& problem, const Carrying& all, const Vector& unit, double load) {
+std::optional<Vector> beyond_edge(const RigidMotions& rigid, const Problem& problem, const Carrying& all, const Measure& unit, double load) {
   const Vector in = inwards(rigid, problem, unit, load), none = Vector::Zero(rigid.count());
   if (in.norm() == 0) return none;
   const double least = 1e-3 * kLimit * load;
@@ -147,10 +135,13 @@ std::optional<Vector> beyond_edge(const RigidMotions& rigid, const Problem& prob
 Solvability solvability(const RigidMotions& given, const Problem& problem) {
   Solvability s;
   if (given.count() == 0) return s;
-  const Units unit = units(given, problem);
+  const Measure unit(problem);  // in units of F no part is small beside another
+  const std::vector<int> part = part_of_modes(problem, unit.parts());
+  Vector of_mode(given.count());
+  for (int k = 0; k < given.count(); ++k) of_mode[k] = unit.force(static_cast<std::size_t>(part[k]));
   RigidMotions rigid = given;
-  rigid.e = given.e.cwiseQuotient(unit.of_mode);
-  const Carrying all = carrying(rigid, problem, unit.of_row);
+  rigid.e = given.e.cwiseQuotient(of_mode);
+  const Carrying all = carrying(rigid, problem, unit);
   const double load = rigid.e.norm();
   const auto residual = load > 0 ? unbalanced(rigid, all, rigid.e) : std::optional<Vector>(Vector::Zero(rigid.count()));
   s.carried = residual && residual->norm() <= kRounding * load;
@@ -161,14 +152,14 @@ Solvability solvability(const RigidMotions& given, const Problem& problem) {
   if (!s.carried) {
     s.verdict = Solvability::Verdict::unsolvable;
     s.limit = residual->norm() < kLimit * load;
-    s.motion = greatest_one(residual->unaryExpr([](double r) { return std::abs(r) > kRounding ? r : 0; }).cwiseProduct(unit.of_mode));
+    s.motion = greatest_one(residual->unaryExpr([](double r) { return std::abs(r) > kRounding ? r : 0; }).cwiseProduct(of_mode));
     s.work = given.e.dot(s.motion);
     return s;
   }
-  const auto edge = beyond_edge(rigid, problem, all, unit.of_row, load > 0 ? load : 1);
+  const auto edge = beyond_edge(rigid, problem, all, unit, load > 0 ? load : 1);
   Eigen::Index most = 0;
   const bool moves = edge && edge->cwiseAbs().maxCoeff(&most) > 0;
-  s.limit = moves && unit.loaded[static_cast<std::size_t>(most)];  // a part without a load has none that could turn
+  for (int k = 0; moves && k < given.count(); ++k) s.limit = s.limit || (part[k] == part[most] && given.e[k] != 0);  // without a load there is none that could turn
   if (rigid.unnoticed.cols() > 0) {
     s.verdict = Solvability::Verdict::up_to_motion;
     s.motion = greatest_one(Vector(rigid.unnoticed.col(0)));
