@@ -39,6 +39,9 @@ double objective(const QuadraticProgram& p, const Vector& x) {
   return 0.5 * x.dot(times(p.P, x)) + p.q.dot(x) + p.r;
 }
 
+namespace {
+
+/// Σ_j A_rj²/P_jj of each row, those j left out that nothing holds: how far a unit of its force moves it, or less.
 Vector row_compliance(const QuadraticProgram& p) {
   const Vector stiffness = p.P.diagonal();
   Vector compliance = Vector::Zero(p.rows());
@@ -47,6 +50,8 @@ Vector row_compliance(const QuadraticProgram& p) {
       if (stiffness[it.col()] > 0) compliance[r] += it.value() * it.value() / stiffness[it.col()];
   return compliance;
 }
+
+}  // namespace
 
 Residuals residuals(const QuadraticProgram& p, const Vector& x, const Vector& y) {
   Residuals out;

@@ -41,9 +41,6 @@ inline double peak(const Vector& v) { return v.lpNorm<Eigen::Infinity>(); }
 inline double peak(const SparseMatrix& a) { return a.coeffs().matrix().lpNorm<Eigen::Infinity>(); }
 inline double peak(const SparseRows& a) { return a.coeffs().matrix().lpNorm<Eigen::Infinity>(); }
 
-/// Σ_j A_rj²/P_jj of each row, those j left out that nothing holds: how far a unit of its force moves it, or less.
-Vector row_compliance(const QuadraticProgram& program);
-
 /// How far x (n) and the multipliers y (m; positive at high, negative at low) are from optimal.
 struct Residuals {
   double stationarity = 0;     ///< max |Px + q + Aᵀy| over max(|P||x|, |q|, |A|ᵀ|y|)
