@@ -151,7 +151,8 @@ void add_laws(const Problem& problem, const State& state, const Vector& x, const
   for (const auto& [law, k, r] : problem.scalar_rows()) {
     if (!law.unilateral()) continue;
     result.penetration = std::max(result.penetration, (x[r] - rounding[r]) / m.length_of_row(r));
-    work[static_cast<std::size_t>(m.parts().of_row[r])] += std::abs(state.lambda[r]) * std::max(0.0, std::abs(x[r]) - rounding[r]);
+    const auto part = static_cast<std::size_t>(m.parts().of_row[r]);
+    work[part] += std::abs(state.lambda[r]) * std::clamp(std::abs(x[r]) - rounding[r], 0.0, m.length(part));
   }
   result.complementarity = greatest_ratio(work, [&](std::size_t p) { return m.force(p) * m.length(p); });
   for (const auto& [group, k, first, n] : problem.friction_points()) {

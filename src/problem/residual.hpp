@@ -12,7 +12,7 @@ namespace dotyk::problem {
 struct Residual {
   double equilibrium = 0;      ///< ‖Ku + Bᵀλ − f‖₂ / F
   double penetration = 0;      ///< greatest (Bu − c)⁺ / X of unilateral rows
-  double complementarity = 0;  ///< Σ|λ (Bu − c)| / FX over unilateral rows
+  double complementarity = 0;  ///< Σ|λ| min(|Bu − c|, X) / FX over unilateral rows: beyond X a row is open, however far
   double law = 0;              ///< greatest |λ − P(λ + ρx)| / F of all rows and points of friction
   double friction = 0;         ///< greatest violation of a friction bound / F
   double energy = 0;           ///< the state's: see energy()

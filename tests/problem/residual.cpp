@@ -202,6 +202,13 @@ TEST_CASE("how far a body moves as a whole is no measure of its gaps") {
   CHECK(residual(p, {Vector{{1e-5, 1e-5 + 1 / C}}, Vector::Ones(1)}).laws() > 1e-3);
   p.c[0] = -1e-3;
   CHECK(residual(p, {Vector{{-1e-3 + 1e-5, -1e-3 + 1e-5 + 1 / C}}, Vector::Ones(1)}).laws() > 1e-3);
+  // Open by ten or by 10⁶ lengths, a force there counts by itself.
+  p.c[0] = 0;
+  for (const double open : {10 / C, 1e6 / C}) {
+    const double laws = residual(p, {Vector{{-open, -open + 1 / C}}, Vector::Constant(1, 1e-9)}).laws();
+    CHECK(laws > 1e-10);
+    CHECK(laws < 1e-8);
+  }
 }
 
 TEST_CASE("rounding of a motion as a whole is told from forces out of balance and from wrong strains") {
