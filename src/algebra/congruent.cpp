@@ -6,6 +6,7 @@
 #include <span>
 
 #include "base/buckets.hpp"
+#include "base/counted.hpp"
 #include "base/parallel.hpp"
 
 namespace dotyk::algebra {
@@ -155,6 +156,7 @@ SparseMatrix congruent(const SparseMatrix& lower, const SparseMatrix& P, const S
     each([&](int, double) { ++entries; });
     starts[J + 1] = entries;
   });
+  counted(std::accumulate(starts, starts + count + 1, std::size_t(0)));
   std::partial_sum(starts, starts + count + 1, starts);
   sum.resizeNonZeros(starts[count]);
   each_column([&](int J, auto&& each) {
@@ -192,7 +194,7 @@ SparseMatrix block_diagonal(const std::vector<const SparseMatrix*>& blocks) {
   Eigen::Index size = 0, entries = 0;
   for (const SparseMatrix* block : blocks) size += block->rows(), entries += block->nonZeros();
   SparseMatrix all(size, size);
-  all.resizeNonZeros(entries);
+  all.resizeNonZeros(counted(static_cast<std::size_t>(entries)));
   int first = 0, before = 0;
   for (const SparseMatrix* block : blocks) {
     const auto count = static_cast<int>(block->nonZeros());

@@ -36,6 +36,7 @@ class Measure {
   const Parts& parts() const { return parts_; }
   /// k by row; the greatest of all where no unknown moves a row, 1 where none moves any.
   const algebra::Vector& stiffness() const { return stiffness_; }
+  double load(std::size_t part) const { return load_[part] > 0 ? load_[part] : 1; }  ///< ‖f‖, 1 where there is none
   double force(std::size_t part) const { return force_[part]; }    ///< F, 1 where nothing gives a measure
   /// F of a state whose multipliers have that norm on the part's rows.
   double force(std::size_t part, double borne) const { return std::max({load_[part], least_[part], std::min(borne, at_rest_[part])}); }
@@ -43,6 +44,7 @@ class Measure {
   /// A method's forces are measured by their own norm where that is more than this: √ε of what drives the part, or a small part of the others'.
   double least_force(std::size_t part) const;
   double force_of_row(int row) const { return force_[static_cast<std::size_t>(parts_.of_row[row])]; }
+  double load_of_row(int row) const { return load(static_cast<std::size_t>(parts_.of_row[row])); }
   double length_of_row(int row) const;
   /// `relative` of the terms that make forces and gaps at multipliers λ and gaps x: of the greatest |λ| of the row's part, and of |c_r| and the greatest
   /// |x + c| of the part, each turned into the other by k_r. A few ε is what rounding leaves. A gap that says "never" does not count.

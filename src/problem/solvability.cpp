@@ -39,7 +39,7 @@ Carrying carrying(const RigidMotions& rigid, const Problem& problem, const Measu
     for (int k = 0; k < group.count; ++k) {
       const Interval bounds = group.law->multipliers(k);
       const int r = group.first + k;
-      row.push_back(r), all.set.low.push_back(bounds.low / unit.force_of_row(r)), all.set.high.push_back(bounds.high / unit.force_of_row(r));
+      row.push_back(r), all.set.low.push_back(bounds.low / unit.load_of_row(r)), all.set.high.push_back(bounds.high / unit.load_of_row(r));
     }
   const std::vector<const RowGroup*> law_of = problem.group_of_rows();
   for (const FrictionGroup& group : problem.friction)
@@ -47,7 +47,7 @@ Carrying carrying(const RigidMotions& rigid, const Problem& problem, const Measu
       const int n = group.normal[k];
       const double slope = group.law->bound_slope(k), most = slope > 0 ? law_of[n]->law->multipliers(n - law_of[n]->first).high : INFINITY;
       const bool limited = slope > 0 && std::isfinite(most);  // then no force beyond the greatest bound, and none of its own along the normal
-      all.set.rounds.push_back({group.components, group.law->bound(k, limited ? most : 0) / unit.force_of_row(group.row(k)), limited ? 0 : slope});
+      all.set.rounds.push_back({group.components, group.law->bound(k, limited ? most : 0) / unit.load_of_row(group.row(k)), limited ? 0 : slope});
       if (slope > 0 && !limited) row.push_back(n);
       for (int i = 0; i < group.components; ++i) row.push_back(group.row(k) + i);
     }
@@ -106,7 +106,7 @@ Vector inwards(const RigidMotions& rigid, const Problem& problem, const Measure&
       const auto [low, high] = group.law->multipliers(r - group.first);
       const bool below = std::isfinite(low), above = std::isfinite(high);
       limits = limits || below || above;
-      middle[r] = (below && above ? (low + high) / 2 : below ? low : above ? high : 0) / unit.force_of_row(r);
+      middle[r] = (below && above ? (low + high) / 2 : below ? low : above ? high : 0) / unit.load_of_row(r);
       if (below != above) rays[r] = below ? 1 : -1;
     }
   if (!limits) return Vector::Zero(rigid.count());
@@ -135,10 +135,10 @@ std::optional<Vector> beyond_edge(const RigidMotions& rigid, const Problem& prob
 Solvability solvability(const RigidMotions& given, const Problem& problem) {
   Solvability s;
   if (given.count() == 0) return s;
-  const Measure unit(problem);  // in units of F no part is small beside another
+  const Measure unit(problem);  // in units of its load no part is small beside another
   const std::vector<int> part = part_of_modes(problem, unit.parts());
   Vector of_mode(given.count());
-  for (int k = 0; k < given.count(); ++k) of_mode[k] = unit.force(static_cast<std::size_t>(part[k]));
+  for (int k = 0; k < given.count(); ++k) of_mode[k] = unit.load(static_cast<std::size_t>(part[k]));
   RigidMotions rigid = given;
   rigid.e = given.e.cwiseQuotient(of_mode);
   const Carrying all = carrying(rigid, problem, unit);

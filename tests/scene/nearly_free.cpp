@@ -26,7 +26,7 @@ bool contains(const std::string& whole, const std::string& part) { return whole.
 TEST_CASE("plan and solution name a body that is nearly free, the motion, and what little holds it") {
   const auto scene = scene::make_scene({sprung(1e-6)});
   const std::string expected =
-      "'lid' is nearly free: translation along x, translation along y, rotation about (0.5, 0.5); held only by spring on "
+      "'lid' is nearly free: translation along x, translation along y, rotation about (0.5, 0.5); without contact held only by spring on "
       "bottom, ";
   CHECK(contains(scene::plan(*scene), "warning: " + expected));
   const auto s = test::solve(scene);
@@ -94,7 +94,7 @@ TEST_CASE("a patch that holds too little is named with its nodes") {
   scene::fix(patch, {true, true, true});
   test::press(b, "right", 1);
   CHECK(contains(scene::plan(*scene::make_scene({b})),
-                 "'lid' is nearly free: rotation about (0, 0); held only by fix of patch (2 nodes), "));
+                 "'lid' is nearly free: rotation about (0, 0); without contact held only by fix of patch (2 nodes), "));
 }
 
 TEST_CASE("ordinary supports give no warning") {

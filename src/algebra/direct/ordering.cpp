@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "algebra/direct/cholmod_handle.hpp"
+#include "base/counted.hpp"
 
 namespace dotyk::algebra {
 namespace {
@@ -59,7 +60,7 @@ NodeGraph node_graph(const SparseMatrix& lower, const std::vector<int>& node) {
       if (a != previous) g.neighbour.push_back(a);
       previous = a;
     }
-    g.start.push_back(static_cast<int>(g.neighbour.size()));
+    g.start.push_back(counted(g.neighbour.size()));
   }
   return g;
 }
@@ -113,7 +114,7 @@ std::vector<int> interior_minimum_degree(const NodeGraph& graph, const std::vect
   for (const int k : inner) {
     for (int p = graph.start[k]; p < graph.start[k + 1]; ++p)
       if (index[graph.neighbour[p]] >= 0) interior.neighbour.push_back(index[graph.neighbour[p]]);
-    interior.start.push_back(static_cast<int>(interior.neighbour.size()));
+    interior.start.push_back(counted(interior.neighbour.size()));
   }
   if (inner.empty()) return order;
   cholmod_sparse view = interior.view();

@@ -65,7 +65,7 @@ void see_weak_motions(Model& model, std::size_t b, bool movable) {
   model.nearly_free.emplace_back();
   if (weak.motions.empty()) return;
   const std::string motions = listed(texts(weak.motions)), holds = supports_of(body);
-  model.nearly_free.back() = text("nearly free: ", motions, "; held only by ", holds, ", ", weak.stiffness > 0 ? text(weak.stiffness) : "1e-15 or less", " as stiff as the body");
+  model.nearly_free.back() = text("nearly free: ", motions, "; without contact held only by ", holds, ", ", weak.stiffness > 0 ? text(weak.stiffness) : "1e-15 or less", " as stiff as the body");
   if (movable && !body.springs.empty()) {
     model.springs_are_rows[b] = 1;
     model.problem.blocks[b].K = assemble(model, b);

@@ -68,7 +68,7 @@ struct Model : SceneRows {
   std::optional<problem::Decomposition> decomposition;  ///< by which problem.subdomains were cut; none: they were not
 
   /// Body → rigid motions that its supports hardly hold, with what they are and how stiff: "nearly free:
-  /// rotation about (0, 0); held only by fix of left (2 nodes), 3e-08 as stiff as the body". Mostly empty.
+  /// rotation about (0, 0); without contact held only by fix of left (2 nodes), 3e-08 as stiff as the body". Mostly empty.
   std::vector<std::string> nearly_free;
   double softest = 1;  ///< how stiff K holds the softest of these motions, relative to its body
 

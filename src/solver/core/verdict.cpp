@@ -9,8 +9,10 @@ namespace {
 using problem::Problem;
 using problem::Residual;
 
-/// Of forces; stresses of which so much is rounding are no result.
+/// Of forces; states that are further off, by rounding or by a tol that asks for no more, are no result.
 constexpr double kMostGranted = 0.1;
+/// So many times the rounding of one product each a direct solution may leave of equilibrium.
+constexpr double kRoundings = 1000;
 
 void require_finite(const Problem& problem, const Result& result, const Residual& r) {
   const double sum = r.energy + problem::friction_energy(problem, result.state) + r.equilibrium +
@@ -42,7 +44,7 @@ void refuse(std::string reason, Result& result) {
 }
 
 void refuse_residuals(const Problem& problem, const Residual& r, Result& result) {
-  const double asked = std::max(result.noise, result.asked), allowed = result.penalty || result.feti ? result.noise : asked;
+  const double asked = std::max(result.noise, std::min(result.asked, kMostGranted)), allowed = result.penalty || result.feti ? result.noise : asked;
   const double equilibrium = honest_equilibrium(problem, r.equilibrium, allowed, result);
   // A penalised state is off its laws by what the method says, and no more.
   double penalty = 0;
@@ -51,13 +53,16 @@ void refuse_residuals(const Problem& problem, const Residual& r, Result& result)
     for (int row = 0; row < problem.rows(); ++row) penalty = std::max(penalty, (1 + asked) * result.penalty->penetration / measure.length_of_row(row));
   }
   const double laws = result.penalty ? r.law : r.laws();
-  const char* unloaded = problem.loaded() ? "" : " (no load gives forces a scale: if they should vanish, take pdas, which ends exactly)";
-  if (equilibrium > allowed)
+  const std::string unloaded = problem.loaded() ? "" : " (no load gives forces a scale: if they should vanish, take pdas, which ends exactly)";
+  const std::string unexplained = (result.asked > kMostGranted ? text(", and beyond ", kMostGranted, " none is a solution, whatever tol") : ", which neither tol nor rounding explains") + unloaded;
+  if (equilibrium > allowed && equilibrium > kRoundings * problem::rounding_of_equilibrium(problem, result.state))
+    refuse(text("the state is off equilibrium by ", equilibrium, unexplained), result);
+  else if (equilibrium > allowed)
     refuse(text("rounding leaves a residual of ", equilibrium, " in equilibrium", unloaded, ": stiffnesses, supports or sizes are too far apart ",
                 result.feti ? "for this decomposition, or tol is too great"
-                            : "(a material nearly incompressible, a spring nearly absent, cells nearly flat)"), result);
+                            : "(a material nearly incompressible, a spring nearly absent, cells nearly flat, a beam far stiffer than its cells' foundation)"), result);
   else if (laws > std::max(asked, penalty))
-    refuse(text("the state is off the laws of contact and supports by ", laws, ", which neither tol nor rounding explains", unloaded), result);
+    refuse(text("the state is off the laws of contact and supports by ", laws, unexplained), result);
 }
 
 /// A motion held by a part of the body's own stiffness is known to rounding over that part, whatever the residuals say:
