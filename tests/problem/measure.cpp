@@ -11,7 +11,7 @@ using algebra::Vector;
 
 namespace {
 
-problem::Block spring(double k, double f) {
+problem::Block spring_between(double k, double f) {
   problem::Block block;
   block.K = algebra::SparseMatrix(DenseMatrix::Constant(1, 1, k).sparseView());
   block.f = Vector::Constant(1, f);
@@ -23,7 +23,7 @@ problem::Block spring(double k, double f) {
 /// Bodies on springs; rows B u ≤ c.
 problem::Problem bodies(const std::vector<std::pair<double, double>>& stiffness_and_load, const DenseMatrix& B, const Vector& c) {
   problem::Problem p;
-  for (const auto& [k, f] : stiffness_and_load) problem::add(p, spring(k, f));
+  for (const auto& [k, f] : stiffness_and_load) problem::add(p, spring_between(k, f));
   p.B = B.sparseView();
   p.c = c;
   p.groups = {{"contact", problem::unilateral(), 0, static_cast<int>(c.size())}};

@@ -87,6 +87,29 @@ TEST_CASE("what presses decides: a hollow and a ball that differ little, lightly
   CHECK(hard == 0);
 }
 
+TEST_CASE("pressed rings: what chords of nodes that do not match make of the pressure is said, and no less") {
+  for (const auto& [inside, outside] : {std::pair{40, 27}, {60, 41}, {120, 83}, {120, 120}}) {
+    const auto inner = ring("inner", 2, Family::q1, 0.5, 1.002, inside), outer = ring("outer", 2, Family::q1, 1, 1.5, outside);
+    for (const auto& body : {inner, outer}) test::slide(body, "bottom"), test::slide(body, "top");
+    const auto s = scene::make_scene({inner, outer});
+    const auto contact = scene::add_contact(*s, test::part(inner, "right"), test::part(outer, "left"), {}, {}, true);
+    const auto solution = test::solve(s);
+    double least = INFINITY, most = 0;
+    for (std::size_t i = 2; i + 2 < contact->rows.size(); ++i) {
+      const double p = solution->result().state.lambda[solution->model().contact_row[0][i]] / solution->model().normal[0][i].measure;
+      least = std::min(least, p), most = std::max(most, p);
+    }
+    const auto doubts = scene::doubts(*solution);
+    CAPTURE(inside);
+    REQUIRE(doubts.size() == (inside == outside ? 0 : 1));
+    if (doubts.empty()) continue;
+    const std::size_t at = doubts[0].find("uncertain by up to ");
+    REQUIRE(at != std::string::npos);
+    CHECK(most - least < std::stod(doubts[0].substr(at + 19)));
+    CHECK(most - least > 0.1 * std::stod(doubts[0].substr(at + 19)));
+  }
+}
+
 TEST_CASE("flat parts, and a curved one on a flat one, are not doubtful for their chords") {
   for (const int dim : {2, 3}) {
     const auto low = test::block("low", dim, Family::p1, 3), high = test::block("high", dim, Family::p1, 4, 1);

@@ -127,3 +127,30 @@ do
     that(not s.converged or math.abs(s.energy / energy - 1) < 1e-6, ("%s: %g for %g"):format(name, s.energy, energy))
   end
 end
+
+-- A tol that asks for nothing makes no state a solution.
+do
+  local b <const> = dotyk.body{ mesh = dotyk.mesh.rectangle{ from = {0, 0}, to = {2, 1}, cells = {8, 4} }, material = dotyk.material{ E = 1000, nu = 0.3 } }
+  b:part"top":load({0.2, -4})
+  b:part"left":spring{ x = 10, y = 10 }
+  local scene <const> = dotyk.scene{ b }
+  scene:contact{ b:part"bottom", rigid = dotyk.rigid.plane{ point = {0, -0.001}, normal = {0, 1} }, friction = dotyk.friction.tresca(0.05) }
+  for _, method in ipairs{ dotyk.solver.uzawa{ tol = 1e9 }, dotyk.solver.psor{ tol = 100 }, dotyk.solver.psor{ tol = 1 } } do
+    local s <const> = method:solve(scene)
+    local off <const> = math.max(s.residual.equilibrium, s.residual.law, s.residual.penetration, s.residual.complementarity, s.residual.friction)
+    that(s.converged == (off <= 0.1), ("%s: off by %g"):format(s.method, off))
+  end
+end
+
+-- Along a plane bodies may slide as far as they like; on a curved side what lay across before the load is elsewhere, and a warning says so.
+for _, far in ipairs{ 0.1, 10 } do
+  for _, shape in ipairs{ dotyk.rigid.plane{ point = {0, 0}, normal = {0, 1} }, dotyk.rigid.ball{ center = {0.5, -50}, radius = 50 } } do
+    local b <const> = dotyk.body{ mesh = dotyk.mesh.rectangle{ from = {0, 0}, to = {1, 1}, cells = {4, 4} }, material = dotyk.material{ E = 1000, nu = 0.3 } }
+    b:part"top":load({0, -0.1})
+    b:part"left":displace{ x = far }
+    local scene <const> = dotyk.scene{ b }
+    scene:contact{ b:part"bottom", rigid = shape }
+    local said <const> = table.concat(dotyk.solve(scene).warnings, "\n"):find("slides by", 1, true)
+    that((said ~= nil) == (far > 1 and shape ~= nil and tostring(shape):find "ball" ~= nil), ("%s, %g: %s"):format(shape, far, said))
+  end
+end
