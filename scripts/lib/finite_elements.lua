@@ -82,23 +82,33 @@ local function points(simplex, d, order)
   return all
 end
 
--- What is exact for the stiffness of straight simplices of order 2: a point near each corner.
-local function near_corners(d)
-  local all, other <const>, volume <const> = {}, d == 2 and 1 / 6 or (5 - 5 ^ 0.5) / 20, d == 2 and 1 / 2 or 1 / 6
-  for corner = 1, d + 1 do
+-- Those of the stiffness of simplices of order 2: no rule is exact where they are curved, and these are the ones that
+-- define them, by Dunavant (1985) and Walkington (2000), of degree 4 in the plane and 5 in space.
+local function symmetric(d)
+  local all = {}
+  local function add(weight, low, high, first, second) -- barycentric coordinates `high` but for those of one or two corners
     local x = {}
-    for k = 1, d do x[k] = corner == k + 1 and 1 - d * other or other end
-    all[corner] = { x = x, weight = volume / (d + 1) }
+    for k = 1, d do x[k] = (k + 1 == first or k + 1 == second) and low or high end
+    table.insert(all, { x = x, weight = weight })
+  end
+  local near <const> = d == 2 and { { 0.22338158967801146570 / 2, 0.44594849091596488632 }, { 0.10995174365532186764 / 2, 0.09157621350977074346 } }
+    or { { 0.11268792571801585080 / 6, 0.31088591926330060980 }, { 0.07349304311636194954 / 6, 0.09273525031089122640 } }
+  for _, rule in ipairs(near) do
+    for corner = 1, d + 1 do add(rule[1], 1 - d * rule[2], rule[2], corner) end
+  end
+  local a <const> = 0.04550370412564964949
+  for second = 2, d == 3 and 4 or 0 do
+    for first = 1, second - 1 do add(0.04254602077708146644 / 6, a, 0.5 - a, first, second) end
   end
   return all
 end
 
 local known <const> = {}
 local function rule(mesh, d, of_stiffness)
-  local low <const> = of_stiffness and mesh.simplex and mesh.order == 2
-  local key = (mesh.simplex and "P" or "Q") .. mesh.order .. d .. (low and "low" or "")
+  local own <const> = of_stiffness and mesh.simplex and mesh.order == 2
+  local key = (mesh.simplex and "P" or "Q") .. mesh.order .. d .. (own and "own" or "")
   if not known[key] then
-    known[key] = low and near_corners(d) or points(mesh.simplex, d, mesh.order)
+    known[key] = own and symmetric(d) or points(mesh.simplex, d, mesh.order)
     local shape <const> = mesh.simplex and simplex_shape or tensor_shape
     for _, p in ipairs(known[key]) do p.N, p.D = shape(d, mesh.order, p.x) end
   end
@@ -162,12 +172,12 @@ function fem.lame(E, nu, plane)
 end
 
 -- Nodal forces K u and the energy ½ uᵀKu, of u[node] = { x, y[, z] }; and of each node (2μ + λ) ∫ |∇N|², the size
--- of K's entries there. Simplices of order 2 are integrated as straight ones are, or by the `fine` rule.
-function fem.inner_forces(mesh, lambda, mu, u, fine)
+-- of K's entries there.
+function fem.inner_forces(mesh, lambda, mu, u)
   local d <const>, forces <const>, stiffness <const>, energy = mesh.dimension, zeros(mesh), {}, 0
   for node in ipairs(mesh.points) do stiffness[node] = 0 end
   for _, cell in ipairs(mesh.cells) do
-    for _, p in ipairs(rule(mesh, d, not fine)) do
+    for _, p in ipairs(rule(mesh, d, true)) do
       local inv, det = inverse(derivatives(cell, mesh.points, p.D, d, d))
       local H, g, trace, s, q = derivatives(cell, u, p.D, d, d), {}, 0, {}, {}
       for i = 1, d do

@@ -245,8 +245,9 @@ local function check_equilibrium(scene, made, solution, contacts, supports, tol,
   for _, sum in pairs(sums) do tol.gross = tol.gross + sum.gross end
   for k, sum in pairs(sums) do
     -- Beside the accuracy of forces: rounding of inner forces, a body's stiffness times its motion.
-    -- What a loose tolerance leaves is beside all forces.
+    -- What a loose tolerance leaves is beside all forces, and where nothing is loaded beside 1e-8 of those that gaps would make.
     local rounding = 1e-12 * scene.stiffest * tol.length * scene.size^(scene.dimension - 2) + (scene.accuracy or 1e-9) * tol.gross
+      + (scene.accuracy or 0) * 1e-8 * scene.stiffest * scene.reach * scene.size^(scene.dimension - 2)
     if not (norm(sum.force) <= tol.accuracy * sum.gross + rounding) then -- also where it is not a number
       wrong("forces on b%d do not balance: %.3g of %.3g", k, norm(sum.force), sum.gross)
     elseif sum.whole and norm(sum.moment) > tol.accuracy * sum.gross_moment + rounding * extent then
@@ -283,10 +284,12 @@ function checks.check(scene, made, solution, before)
   end
   check_equilibrium(scene, made, solution, contacts, supports, tol, wrong)
   if scene.accuracy then tol.node = math.max(tol.node, scene.accuracy * tol.gross) end
-  local rubbing = 0 -- given friction's bounds, of which slips known to 1e-7 make work
+  local rubbing = 0 -- friction's bounds, of which slips known to 1e-7 make work
   for k, contact in ipairs(scene.contacts) do
-    local given = contact.friction and contact.friction.kind == "tresca" and contact.friction.value < math.huge
-    for _, node in ipairs(given and contacts[k].nodes or {}) do rubbing = rubbing + contact.friction.value * node.weight end
+    local law = contact.friction and contact.friction.value < math.huge and contact.friction
+    for _, node in ipairs(law and contacts[k].nodes or {}) do
+      rubbing = rubbing + law.value * node.weight * (law.kind == "tresca" and 1 or math.abs(node.pressure))
+    end
   end
   for k, support in ipairs(scene.supports) do
     for _, law in pairs(support.law or {}) do
@@ -297,6 +300,7 @@ function checks.check(scene, made, solution, before)
   -- Where loads meet their reactions at once nothing moves: forces count by what they would move the stiffest body by.
   local moved <const> = math.max(tol.length, tol.stress * scene.size / scene.stiffest)
   tol.energy = tol.accuracy / 1e-6 * (1e-9 * tol.gross + 1e-7 * rubbing) * moved + 1e-12 * nodal.rounding
+  if scene.accuracy and rubbing > 0 then tol.energy = tol.energy + scene.accuracy / 20 * tol.gross * moved end -- forces off by tol slip
   if tol.gross < 1e-6 * scene.stress * scene.size ^ (scene.dimension - 1) then -- nothing is loaded
     tol.energy = tol.energy + 1e-10 * scene.stiffest * scene.size ^ scene.dimension
   end

@@ -198,10 +198,21 @@ function contradictions.told(scene, message)
       end
     end
   end
+  local function glued(where) -- to a body that supports hold there
+    local normal <const> = scene.turn(g.normal_of(scene, where.side))
+    for _, tie in ipairs(scene.glues) do
+      local other = tie.one == where.body.index and tie.other or tie.other == where.body.index and tie.one
+      for _, held in ipairs(other and scene.bodies[other].holding or {}) do
+        local along = 0
+        for k, n in ipairs(normal) do along = along + n * held.directions[1][k] end
+        if on(scene.bodies[other], held.side) and (#held.directions > 1 or math.abs(along) > 1 - 1e-9) then return true end
+      end
+    end
+  end
   for _, contact in ipairs(scene.contacts) do
     for _, where in pairs{ contact.first, contact.second } do
-      local named <const> = contact.overlap and where.body.name == name and on(where.body, where.side)
-      if named and (stuck(contact, where) or prescribed(contact, where)) then return true end
+      local named <const> = contact.inside and where.body.name == name and on(where.body, where.side)
+      if named and (stuck(contact, where) or prescribed(contact, where) or glued(where)) then return true end
     end
   end
   return false

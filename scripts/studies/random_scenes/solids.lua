@@ -219,7 +219,7 @@ local function join(scene, one, other, one_side, gap)
     scene.reach, text = scene.reach + more, text .. ", gap = " .. format(more)
   end
   scene.reach = scene.reach + math.abs(gap)
-  add_contact(scene, text, { first = a, second = b, overlap = overlap, curved = one.disc or other.disc or one.bend ~= 0 })
+  add_contact(scene, text, { first = a, second = b, overlap = overlap, inside = overlap, curved = one.disc or other.disc or one.bend ~= 0 })
 end
 
 -- `another`: beside one of the same part.
@@ -245,7 +245,7 @@ local function obstacle(scene, body, name, another)
     against = ("dotyk.rigid.ball{ center = %s, radius = %s }"):format(format(solids.turn(scene, centre)), format(R))
   end
   add_contact(scene, part(scene, body, name) .. ", rigid = " .. against,
-    { first = { body = body, side = name }, overlap = overlap, ball = kind == "ball", curved = body.disc or body.bend ~= 0 })
+    { first = { body = body, side = name }, overlap = overlap, inside = gap < 0, ball = kind == "ball", curved = body.disc or body.bend ~= 0 })
 end
 
 local function glue(scene, one, other)
