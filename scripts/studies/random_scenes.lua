@@ -128,7 +128,7 @@ end
 local function refused(scene, message, made)
   message = message:gsub("^.-:%d+: ", "")
   -- Sides of bent bodies may lie beside each other.
-  if message:find "do not face each other" and scene.curved then return "refused" end
+  if message:find "do not face each other" and (scene.curved or scene.bent) then return "refused" end
   if message:find "no displacement can part them" then
     if contradictions.told(scene, message) then return "refused" end
     return "REFUSED", message
@@ -171,12 +171,15 @@ local function all_converged(scene, s)
   return s.converged, s.reason, 1
 end
 
--- Does a solution say that its strains or rotations are far beyond what the equations are for? What is then moved by
+-- Does a solution say that its strains, rotations or ways along a contact are far beyond what the equations are for? What is then moved by
 -- wedges that close after many times their size is a solution of the equations, and of no use: it has to be said.
 local function told_as_beyond(s)
-  for _, warning in ipairs(s.warnings) do
+  local all <const> = {}
+  for _, step in ipairs(s.steps or { s }) do table.move(step.warnings, 1, #step.warnings, #all + 1, all) end
+  for _, warning in ipairs(all) do
     local percent <const>, radians <const> = warning:match "strained by (%S+) %%", warning:match "turns by (%S+) radians"
-    if (tonumber(percent) or 0) > 100 or (tonumber(radians) or 0) > 1 then return true end
+    local sizes <const> = warning:match "slides by (%S+) times"
+    if (tonumber(percent) or 0) > 100 or (tonumber(radians) or 0) > 1 or (tonumber(sizes) or 0) > 1 then return true end
   end
   return false
 end
@@ -231,6 +234,7 @@ local function judge(scene)
   if not tol then return "WRONG", wrong end
   local a, b = energy(scene, s), energy(scene, other)
   if math.abs(a - b) <= 1e-6 * math.abs(a) + tol.energy then return "solved" end
+  if told_as_beyond(s) then return "beyond" end
   return scene.coulomb and "several" or "WRONG", ("energies %.10g (%s) and %.10g (%s)"):format(a, s.method, b, name)
 end
 

@@ -5,6 +5,7 @@
 #include "algebra/direct/stop_factoring.hpp"
 #include "base/memory.hpp"
 #include "base/stopwatch.hpp"
+#include "problem/residual.hpp"
 
 namespace dotyk::problem {
 
@@ -16,6 +17,7 @@ namespace {
 
 /// The rate of sweeps with many columns, in rates of a factorisation; and they need no ordering.
 constexpr double kFaster = 2;
+constexpr double kEps = std::numeric_limits<double>::epsilon(), kSum = 128, kFew = 4;  // roundings: of long sums of what solves gave, and of a row's few terms
 
 /// What orderings keep together, one entry an unknown, and which of it goes last.
 struct Grouping {
@@ -210,18 +212,19 @@ CondensedProblem::CondensedProblem(DenseMatrix W, Vector x0)
     : W_(std::move(W)), N_(x0.size(), 0), x0_(std::move(x0)), e_(0) {}
 
 CondensedProblem CondensedProblem::softened(const Vector& compliance, const Vector& centre) const {
-  CondensedProblem soft(W_, x0_ + compliance.cwiseProduct(centre));
+  CondensedProblem soft(W_, x0_ + compliance.cwiseProduct(centre_.size() ? Vector(centre - centre_) : centre));
   soft.W_.diagonal() += compliance;
-  soft.N_ = N_;
-  soft.e_ = e_;
+  soft.N_ = N_, soft.e_ = e_;
+  soft.centre_ = centre_, soft.centre_motion_ = centre_motion_, soft.rounding_ = rounding_;
   return soft;
 }
 
-CondensedProblem CondensedProblem::missing(const Vector& lambda, const Vector& x) const {
-  CondensedProblem rest(W_, x);
-  rest.N_ = N_;
-  rest.e_ = e_ - N_.transpose() * lambda;
-  return rest;
+CondensedProblem CondensedProblem::centred(const Problem& problem, const Vector& lambda, const Vector& alpha, const Vector& u) const {
+  CondensedProblem about(W_, problem.B * u - problem.c);
+  about.N_ = N_, about.e_ = e_;
+  about.centre_ = lambda, about.centre_motion_ = alpha;
+  about.rounding_ = kFew * kEps * (problem.B.cwiseAbs() * u.cwiseAbs() + problem.c.cwiseAbs()) + W_.diagonal().cwiseProduct(rounding_of_forces(problem, {u, lambda}));
+  return about;
 }
 
 void CondensedProblem::add(CondensedBlock block) {
@@ -236,9 +239,16 @@ void CondensedProblem::add(CondensedBlock block) {
 }
 
 Vector CondensedProblem::jump(const Vector& lambda, const Vector& alpha) const {
-  Vector x = x0_ - W_ * lambda;
-  if (alpha.size()) x += N_ * alpha;
-  return x;
+  if (centre_.size() == 0) return alpha.size() ? Vector(x0_ - W_ * lambda + N_ * alpha) : Vector(x0_ - W_ * lambda);
+  return x0_ - W_ * (lambda - centre_) + N_ * (alpha.size() ? Vector(alpha - centre_motion_) : Vector(-centre_motion_));
+}
+
+Vector CondensedProblem::rounding(const Vector& lambda, const Vector& alpha) const {
+  const bool centred = centre_.size() > 0;
+  Vector gross = W_.cwiseAbs() * (centred ? Vector(lambda - centre_) : lambda).cwiseAbs();
+  if (alpha.size() > 0) gross += N_.cwiseAbs() * (centred ? Vector(alpha - centre_motion_) : alpha).cwiseAbs();
+  if (!centred) return kSum * kEps * (gross + x0_.cwiseAbs());
+  return rounding_ + kSum * kEps * gross;
 }
 
 template <class Of>

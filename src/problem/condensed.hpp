@@ -64,19 +64,21 @@ class CondensedProblem {
   /// Without displacements to recover.
   CondensedProblem softened(const algebra::Vector& compliance, const algebra::Vector& centre) const;
 
-  /// The problem of the corrections λ' and α' to a state of multipliers λ and jump x: x' = x − Wλ' + Nα', Nᵀλ' = e − Nᵀλ. Without
-  /// displacements to recover.
-  CondensedProblem missing(const algebra::Vector& lambda, const algebra::Vector& x) const;
+  /// The same about a state of multipliers λ_c, amounts α_c and displacements u: x = (Bu − c) − W(λ − λ_c) + N(α − α_c). Near it there are no great terms that
+  /// cancel, as there are in x₀ − Wλ where bodies are soft without contact. Without displacements to recover.
+  CondensedProblem centred(const Problem& problem, const algebra::Vector& lambda, const algebra::Vector& alpha, const algebra::Vector& u) const;
 
   int rows() const { return static_cast<int>(x0_.size()); }
   int unknowns() const { return unknowns_; }
   int kernel_size() const { return static_cast<int>(e_.size()); }
   const algebra::DenseMatrix& W() const { return W_; }
-  const algebra::Vector& x0() const { return x0_; }
+  const algebra::Vector& x0() const { return x0_; }  ///< of one that is centred its jump there
   const algebra::DenseMatrix& N() const { return N_; }  ///< rows × kernel_size
   const algebra::Vector& e() const { return e_; }
 
   algebra::Vector jump(const algebra::Vector& lambda, const algebra::Vector& alpha) const;
+  /// By row, how far rounding may put that off.
+  algebra::Vector rounding(const algebra::Vector& lambda, const algebra::Vector& alpha) const;
   /// All unknowns, from the multipliers and the amounts of rigid motion: one backward sweep a block; after extend() a forward sweep as well.
   algebra::Vector recover(const algebra::Vector& lambda, const algebra::Vector& alpha) const;
 
@@ -102,6 +104,7 @@ class CondensedProblem {
   std::vector<int> first_rows_;  ///< those of the constructor, which Γ was made for
   algebra::DenseMatrix W_, N_;
   algebra::Vector x0_, e_;
+  algebra::Vector centre_, centre_motion_, rounding_;  ///< λ_c, α_c and rounding() there; empty: none
   algebra::SparseMatrix noticed_;    ///< basis of the motions that rows notice: modes × kernel_size
   algebra::SparseMatrix unnoticed_;  ///< orthonormal displacements that no row notices: unknowns × count
   int unknowns_ = 0, modes_ = 0;

@@ -291,7 +291,7 @@ function solids.finish(scene)
   scene.plane = function(body, side) return { normal = scene.turn(normal_of(scene, side)), point = scene.turn((side_box(scene, body, side))) } end
   scene.extent, scene.stiffest = scene.size, 0
   for _, body in ipairs(scene.bodies) do
-    scene.stiffest = math.max(scene.stiffest, body.E)
+    scene.stiffest, scene.bent = math.max(scene.stiffest, body.E), scene.bent or body.bend ~= 0
     for k = 1, up do scene.extent = math.max(scene.extent, math.abs(body.high[k]), math.abs(body.low[k])) end
   end
   -- On curved parts conditions are means of places beside the node: what they measure of rigid motions is asked for (probe.lua) where

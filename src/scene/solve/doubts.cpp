@@ -109,32 +109,6 @@ void see_rounding(const Solution& solution, std::size_t index, std::vector<std::
                        ": cells there are too thin, or bodies move too far beside how they deform; grade the mesh less"));
 }
 
-/// Of the bodies' size: what slides further on a curved side, or on another body, is no longer across from what its rows say.
-constexpr double kFar = 0.25;
-
-/// Where what touches slides far from what lay across before the load; on a plane that is all the same.
-void see_far(const Solution& solution, std::size_t index, std::vector<std::string>& all) {
-  const Contact& contact = *solution.scene().contacts[index];
-  const Body* second = contact.second.body.get();
-  const mesh::Mesh& own = *contact.first.body->mesh;
-  if (contact.first.body->unrefined || (!second && std::holds_alternative<contact::RigidPlane>(contact.shape))) return;
-  const int dim = solution.scene().dimension(), first = solution.scene().index_of(contact.first.body.get()), other = solution.scene().index_of(second);
-  const double size = second ? std::min(own.size(), second->mesh->size()) : own.size();
-  double most = 0;
-  int node = 0;
-  for (std::size_t i = 0; i < contact.rows.size(); ++i) {
-    const contact::ContactRow& at = contact.rows[i];
-    if (const int row = solution.model().contact_row[index][i]; row < 0 || !solution.active(row)) continue;
-    mesh::Point u = contact::mean(at.own, solution.displacement(first), dim);
-    if (second) u = mesh::minus(u, contact::mean(at.partners, solution.displacement(other), dim));
-    const mesh::Point slide = mesh::minus(u, mesh::times(mesh::dot(u, at.normal), at.normal));
-    if (mesh::length(slide) > most) most = mesh::length(slide), node = at.node;
-  }
-  if (most > kFar * size)
-    all.push_back(text(contact.name, ": slides by ", most, " at ", point_text(own.point(node).data(), dim), ", beside bodies of size ", size,
-                       ": contact is of what faced each other before the load, and elsewhere the shapes are others"));
-}
-
 /// Where supports hold the contact across everywhere: they bear what presses, and no friction comes of it.
 void see_held(const Solution& solution, std::size_t index, std::vector<std::string>& all) {
   using LawKind = problem::SupportLaw::Kind;
@@ -248,6 +222,21 @@ void see_great(const Body& body, const std::vector<double>& u, std::vector<std::
   see(&CellDeformation::rotation, angle, text("' turns by ", std::setprecision(2), angle, " radians and more (a tenth of it)"));
 }
 
+/// Where parts that press have slid along a ball, whose normal turns with the way, or along another body so far that other places face each other.
+void see_slide(const Solution& solution, std::size_t index, std::vector<std::string>& all) {
+  const Contact& contact = *solution.scene().contacts[index];
+  const auto* ball = std::get_if<contact::RigidBall>(&contact.shape);
+  const bool bodies = contact.second.body != nullptr;
+  if (contact.kind == Contact::Kind::glue || contact.first.body->unrefined || !(bodies || ball)) return;
+  const double size = bodies ? std::min(contact.first.body->mesh->size(), contact.second.body->mesh->size()) : ball->radius;
+  double way = 0;
+  for (const ContactNode& node : solution.contact(contact).nodes)
+    if (node.pressure > 0) way = std::max(way, mesh::length(node.slip));
+  if (way > kGreat * size)
+    all.push_back(text(contact.name, ": what presses slides by ", std::setprecision(2), way / size, " times the ", bodies ? "size of the smaller body" : "radius",
+                       ": contact is that of what faces each other before the load, results are off by about as much"));
+}
+
 }  // namespace
 
 std::vector<std::string> doubts(const Scene& scene) {
@@ -263,7 +252,7 @@ std::vector<std::string> doubts(const Solution& solution) {
   for (std::size_t c = 0; c < solution.scene().contacts.size(); ++c) {
     see_chords(solution, c, all);
     see_held(solution, c, all);
-    if (solution.result().converged) see_rounding(solution, c, all), see_far(solution, c, all);
+    if (solution.result().converged) see_rounding(solution, c, all), see_slide(solution, c, all);
   }
   if (solution.result().converged) see_dependent(solution, all);
   for (std::size_t b = 0; solution.result().converged && b < solution.scene().bodies.size(); ++b)

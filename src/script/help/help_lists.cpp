@@ -144,8 +144,8 @@ class Search {
 }  // namespace
 
 std::string help_index(const Library& library) {
-  std::string out = "The model: linear elasticity at rest, for small strains and rotations (a few per cent; warnings of a solution say where\n"
-                    "they are greater), contact of what faces each other before the load.\n\n";
+  std::string out = "The model: linear elasticity at rest, for small strains and rotations (a few per cent; a solution\n"
+                    "warns where they are greater), contact of what faces each other before the load.\n\n";
   std::vector<const Descriptor*> rest;
   for (const auto& one : library.functions()) rest.push_back(&one);
   std::vector<std::string> objects;

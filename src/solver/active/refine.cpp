@@ -12,8 +12,6 @@ using problem::CondensedProblem;
 using problem::Problem;
 using problem::State;
 
-namespace {
-
 /// f − Ku − Bᵀλ.
 Vector out_of_balance(const Problem& problem, const State& state) {
   Vector left = -(problem::stiffness_times(problem, state.u) + problem.B.transpose() * state.lambda);
@@ -21,20 +19,17 @@ Vector out_of_balance(const Problem& problem, const State& state) {
   return left;
 }
 
+namespace {
+
 /// Newton's step from this state; nothing where the derivative is singular.
 std::optional<State> step(const Problem& problem, const CondensedProblem& condensed, const State& from) {
   const Vector balanced = from.u.here() + condensed.response(out_of_balance(problem, from), Vector::Zero(condensed.kernel_size()));
-  const Vector x = problem.B * balanced - problem.c;
-  const CondensedProblem missing = condensed.missing(from.lambda, x);
-  const NaturalMap map(problem, missing, problem::Measure(problem, condensed).stiffness());
-  // With d the correction to λ: λ + d = P + S(λ + d + ρ(x − Wd + Nα) − y) and y = λ + ρx. That is d = (P − λ) + S(d + ρ(x − Wd + Nα) − ρx),
-  // the map's own equation on the missing problem with P − λ for P and ρx for y.
-  NaturalMap::Value value = map.with_jump(from.lambda, x);
-  value.projected -= from.lambda;
-  value.y = map.rho().cwiseProduct(x);
-  const Iterate d = map.solve(map.linearise(value));
-  if (!d.finite()) return std::nullopt;
-  State to{balanced + condensed.response(-(problem.B.transpose() * d.lambda), d.alpha), from.lambda + d.lambda};
+  const Iterate at{from.lambda, Vector::Zero(condensed.kernel_size())};
+  const CondensedProblem centred = condensed.centred(problem, at.lambda, at.alpha, balanced);
+  const NaturalMap map(problem, centred, problem::Measure(problem, condensed).stiffness());
+  const Iterate next = map.solve(map.linearise(map.at(at)));
+  if (!next.finite()) return std::nullopt;
+  State to{balanced + condensed.response(problem.B.transpose() * (from.lambda - next.lambda), next.alpha), next.lambda};
   return to.u.here().allFinite() && to.lambda.allFinite() ? std::optional(std::move(to)) : std::nullopt;
 }
 

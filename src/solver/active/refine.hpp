@@ -9,6 +9,9 @@
 
 namespace dotyk::solver {
 
+/// f − Ku − Bᵀλ.
+algebra::Vector out_of_balance(const problem::Problem& problem, const problem::State& state);
+
 /// Iterative refinement of a solution found on the condensed problem. There x = x₀ − Wλ + Nα may be a small difference of great terms:
 /// where loads alone would move bodies far, as a thin strip that rests on a plane, or bodies on weak springs. The rounding of these terms
 /// spoils λ. Computed from u, x = Bu − c and f − Ku − Bᵀλ have no such terms, and one Newton step gives the corrections to u and λ. Up to

@@ -29,6 +29,18 @@ SparseMatrix free_motions(const SparseRows& N, const std::vector<char>& active) 
   return algebra::range_and_null(held, problem::kNotAtAll).unseen;
 }
 
+/// Adds the points of friction that slip by `moved`, with the rows that press them; false where there are none.
+bool stick(const Problem& problem, const Vector& moved, std::vector<char>& active) {
+  bool any = false;
+  for (const auto& [group, k, first, n] : problem.friction_points()) {
+    if (active[first] || !(moved.segment(first, group.components).norm() > kApproaches)) continue;
+    std::fill_n(active.begin() + first, group.components, char(1));
+    if (n >= 0 && group.law->bound_slope(k) > 0) active[n] = 1;
+    any = true;
+  }
+  return any;
+}
+
 /// Adds rows to `active` until the active rows hold every motion that rows notice: while one is
 /// free, the bodies move along the load's part of it (or, without one, towards the nearest row)
 /// until further rows close. `x` = Bu − c says where the rows are, λ what those bear that are not active: the least
@@ -64,6 +76,7 @@ void hold(const Problem& problem, const problem::RigidMotions& rigid, std::vecto
     motion /= motion.lpNorm<Eigen::Infinity>();
     const Vector far = distances(N * motion);
     const double first = nearest(far);
+    if (!std::isfinite(first) && stick(problem, N * motion, active)) continue;
     if (!std::isfinite(first))
       throw InputError(text("not held: nothing stops ", problem::describe(rigid.motions, rigid.noticed * motion),
                             "; fix, slide or spring a part, or add a contact in its way"));

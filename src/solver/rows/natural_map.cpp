@@ -50,9 +50,11 @@ int NaturalMap::Value::differences(const Value& other) const {
   return count;
 }
 
-NaturalMap::Value NaturalMap::with_jump(const Vector& lambda, Vector x) const {
+NaturalMap::Value NaturalMap::with_jump(const Iterate& from, Vector x) const {
   const int m = problem_->rows();
+  const Vector& lambda = from.lambda;
   Value v;
+  v.from = from;
   v.projected = Vector::Zero(m);
   v.x = std::move(x);
   v.y = lambda + rho_.cwiseProduct(v.x);
@@ -119,12 +121,16 @@ NaturalMap::System NaturalMap::linearise(const Value& v) const {
       place[r] = static_cast<int>(system.rows.size());
       system.rows.push_back(r);
     }
-  system.fixed = v.projected;
+  const bool rest = v.from.lambda.size() == 0;
+  system.from = rest ? Iterate{Vector::Zero(m), Vector::Zero(condensed_->kernel_size())} : v.from;
+  system.motion = scaled_alpha(system.from.alpha);
+  const Vector x = rest ? condensed_->jump(system.from.lambda, system.from.alpha) : v.x;
+  system.fixed = v.projected - system.from.lambda;
   for (int r : system.rows) system.fixed[r] = 0;
   const Eigen::Index n = static_cast<Eigen::Index>(system.rows.size()), k = condensed_->kernel_size();
   system.matrix = DenseMatrix::Zero(n + k, n + k);
   system.right_side = Vector::Zero(n + k);
-  // λ' = projected + S (λ' + ρ x' − y) with x' = x₀ − W λ' + N α', divided by √ρ.
+  // With d and δ the changes of λ and α: d = projected − λ + S (d + ρ(−W d + N δ) + λ + ρx − y), divided by √ρ.
   DenseMatrix& matrix = system.matrix;
   const SparseRows own = algebra::pick_rows(S, system.rows);
   const SparseRows scaled = own * root_.asDiagonal();  // S D^{1/2}
@@ -136,26 +142,26 @@ NaturalMap::System NaturalMap::linearise(const Value& v) const {
   for (Eigen::Index i = 0; i < n; ++i)
     for (SparseRows::InnerIterator it(own, i); it; ++it)
       if (place[it.col()] >= 0) matrix(i, place[it.col()]) -= it.value();
-  const Vector rest = condensed_->jump(system.fixed, Vector());
-  const Vector lacking = (system.fixed - v.y).cwiseQuotient(root_) + root_.cwiseProduct(rest);
-  system.right_side.head(n) = v.projected(system.rows).cwiseQuotient(root_(system.rows)) + own * lacking;
+  const Vector off = system.from.lambda + rho_.cwiseProduct(x) - v.y;
+  const Vector lacking = (system.fixed + off).cwiseQuotient(root_) - root_.cwiseProduct(condensed_->W() * system.fixed);
+  system.right_side.head(n) = (v.projected - system.from.lambda)(system.rows).cwiseQuotient(root_(system.rows)) + own * lacking;
   if (k > 0) {
     matrix.topRightCorner(n, k).noalias() = -(own * Q_);
     matrix.bottomLeftCorner(k, n) = Q_(system.rows, Eigen::all).transpose();
   }
-  system.right_side.tail(k) = unbalanced(system.fixed);
+  system.right_side.tail(k) = unbalanced(system.from.lambda + system.fixed);
   return system;
 }
 
 void NaturalMap::System::hold(double spring, const Vector& anchor) {
   matrix.diagonal().tail(anchor.size()).array() += spring;
-  right_side.tail(anchor.size()) += spring * anchor;
+  right_side.tail(anchor.size()) += spring * (anchor - motion);
 }
 
 Iterate NaturalMap::take(const System& system, const Vector& solved) const {
-  Iterate to{system.fixed, alpha(solved.tail(condensed_->kernel_size()))};
+  Iterate to{system.from.lambda + system.fixed, system.from.alpha + alpha(solved.tail(condensed_->kernel_size()))};
   for (std::size_t i = 0; i < system.rows.size(); ++i)
-    to.lambda[system.rows[i]] = solved[static_cast<Eigen::Index>(i)] * root_[system.rows[i]];
+    to.lambda[system.rows[i]] += solved[static_cast<Eigen::Index>(i)] * root_[system.rows[i]];
   return to;
 }
 

@@ -35,13 +35,14 @@ class NaturalMap {
     std::vector<char> closed;        ///< scalar rows with slope > 0
     std::vector<char> slipping;      ///< rows of friction points that are closed and slip
     std::vector<char> piece;         ///< row by row: 0 open, 1 closed or stick, 2 slip
+    Iterate from;                    ///< (λ, α); empty: 0
     int active = 0, stick = 0, slip = 0;
     int differences(const Value& other) const;
   };
-  Value at(const algebra::Vector& lambda, const algebra::Vector& alpha) const { return with_jump(lambda, condensed_->jump(lambda, alpha)); }
+  Value at(const algebra::Vector& lambda, const algebra::Vector& alpha) const { return with_jump({lambda, alpha}, condensed_->jump(lambda, alpha)); }
   Value at(const Iterate& it) const { return at(it.lambda, it.alpha); }
   /// The same where the jump is x, known better than the condensed problem does.
-  Value with_jump(const algebra::Vector& lambda, algebra::Vector x) const;
+  Value with_jump(const Iterate& from, algebra::Vector x) const;
   /// The pieces with every row that touches at rest closed and sticking (or those flagged).
   Value sticking(const std::vector<char>& start) const;
 
@@ -58,14 +59,16 @@ class NaturalMap {
   /// Not less than the greatest eigenvalue of W̃ + QQᵀ, W̃ = D^{1/2} W D^{1/2}.
   double greatest_compliance() const;
 
-  /// The Newton system in (v, a), on the rows with a slope; the others have λ' = projected, rows of the identity:
+  /// The Newton system in the changes of (v, a) from where the value was taken, on the rows with a slope; the others have λ' = projected, rows of the identity:
   ///   [ I − S(I − W̃)  −SQ ]
   ///   [ Qᵀ              0  ],   S = ∂projected/∂y,  W̃ = D^{1/2} W D^{1/2}.
   struct System {
     algebra::DenseMatrix matrix;
     algebra::Vector right_side;
     std::vector<int> rows;           ///< of the unknowns v
-    algebra::Vector fixed;           ///< λ' of the other rows (0 on `rows`)
+    algebra::Vector fixed;           ///< changes of the other rows' λ (0 on `rows`)
+    Iterate from;
+    algebra::Vector motion;          ///< a there
     /// Holds motions by springs: δ(a − a₀) is added to the equations of equilibrium.
     void hold(double spring, const algebra::Vector& anchor);
   };

@@ -223,7 +223,6 @@ std::string search(RowIteration& iteration, double tol) {
 
 /// Where Newton's method has lost its way, other methods begin where it began, each with iterations of its own. The reason says what was tried.
 void hand_over(RowIteration& iteration, double tol) {
-  if (iteration.accept()) return;
   const bool coulomb = problem::has_coulomb(iteration.problem);
   if (coulomb) require_bearable(iteration.problem, iteration.condensed, iteration.monitor());
   std::string tried = text("newton lost its way in ", iteration.iterations(), " iterations");

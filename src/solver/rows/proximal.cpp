@@ -21,7 +21,9 @@ constexpr double kSlow = 0.5;  // fall of the residual in an iteration
 constexpr int kConvexSteps = 40;  // of one iteration, where they cannot go astray
 constexpr int kSections = 30;  // of one such step
 constexpr double kFlat = 1e-3;  // a slope against the first one
-constexpr double kSigma = 0.1, kHolding = 3e-3;  // springs that hold free bodies, against C, at this σ; proportional to σ below it
+/// Springs that hold free bodies, against C: at first such a part of σ at this σ, and proportional to σ below it. They become softer from iteration to
+/// iteration whatever rounding leaves of x, which is nothing to them: a motion that next to nothing resists would take steps without end.
+constexpr double kSigma = 0.1, kHolding = 3e-3, kLeastHolding = 1e-16;
 
 /// What each row yields to its own force; all rows of a friction point the mean of theirs.
 Vector compliance_of_rows(const RowIteration& on) {
@@ -39,21 +41,20 @@ Vector compliance_of_rows(const RowIteration& on) {
   return compliance;
 }
 
-/// Of the forces that count: the rounding of x, of which springs make the more the stiffer they are.
-double noise(const RowIteration& on, const Vector& springs) {
-  return on.rounding().cwiseQuotient(springs).cwiseQuotient(on.forces()).norm();
+/// Of the forces that count: the rounding of x at a place, of which springs make the more the stiffer they are.
+double noise(const RowIteration& on, const Iterate& place, const Vector& springs) {
+  return on.rounding(place).cwiseQuotient(springs).cwiseQuotient(on.forces()).norm();
 }
 
 /// Newton's method on the problem with springs, from (λ_k, α_k) on.
 class SpringProblem {
  public:
   /// `convex`: the bounds of friction are given.
-  SpringProblem(const RowIteration& on, const Vector& springs, double sigma, double tol, bool convex)
-      : convex_(convex), centre_(on.lambda()), W_(on.condensed.W()), softened_(on.condensed.softened(springs, centre_)),
+  SpringProblem(const RowIteration& on, const Vector& springs, double holding, double tol, bool convex)
+      : on_(on), convex_(convex), centre_(on.lambda()), W_(on.condensed.W()), softened_(on.rows().softened(springs, centre_)),
         map_(on.problem, softened_, convex ? Vector(springs.cwiseInverse()) : Vector((on.map.rho().cwiseInverse() + springs).cwiseInverse())),
-        anchor_(map_.scaled_alpha(on.alpha())), holding_(sigma * std::min(kHolding, kHolding * sigma / kSigma)),
-        forces_(on.forces()), place_(on.at()), value_(map_.at(place_)), enough_(tol),
-        noise_(noise(on, map_.rho().cwiseInverse())) {}
+        anchor_(map_.scaled_alpha(on.alpha())), holding_(holding),
+        forces_(on.forces()), place_(on.at()), value_(map_.at(place_)), enough_(tol) {}
 
   /// False where it did not come near a solution. One step is always made: the first error may be rounding, and λ yet to move.
   bool solve() {
@@ -62,7 +63,7 @@ class SpringProblem {
       if (!step()) return false;
       ++steps_;
       const double left = error();
-      rounded_ = left <= noise_ && left > 0.5 * before;
+      rounded_ = left > 0.5 * before && left <= noise(on_, place_, map_.rho().cwiseInverse());
       if (rounded_ || left <= std::max(kEndPrecision * moved(), enough_)) return true;
       before = left;
     }
@@ -136,6 +137,7 @@ class SpringProblem {
     move(from, way, low > 0 ? low : high);
   }
 
+  const RowIteration& on_;
   const bool convex_;
   const Vector centre_;
   const DenseMatrix& W_;
@@ -147,12 +149,11 @@ class SpringProblem {
   Iterate place_;
   NaturalMap::Value value_;
   const double enough_;   ///< of tol
-  const double noise_;    ///< what rounding of x may make; against the forces that count, as these errors are
   int steps_ = 0;
   bool rounded_ = false;
 };
 
-/// One Newton step without springs, kept only if the residual falls. Springs make slow progress along a motion that almost nothing resists;
+/// One Newton step without springs, kept only if the residual falls, and rounding is not as much: a free body may be anywhere. Springs make slow progress along a motion that almost nothing resists;
 /// once the pieces of the laws are right, this step is exact.
 void let_go(RowIteration& iteration) {
   const Iterate from = iteration.at();
@@ -162,7 +163,7 @@ void let_go(RowIteration& iteration) {
   Iterate to = iteration.map.solve(system);
   if (!to.finite()) return;
   iteration.move_to(std::move(to));
-  if (!(iteration.residual() < before)) iteration.move_to(from);
+  if (!(iteration.residual() + noise(iteration, iteration.at(), iteration.map.rho().cwiseInverse()) < before)) iteration.move_to(from);
 }
 
 }  // namespace
@@ -170,10 +171,10 @@ void let_go(RowIteration& iteration) {
 void Proximal::iterate(RowIteration& iteration) const {
   const Vector compliance = compliance_of_rows(iteration);
   const bool convex = !problem::has_coulomb(iteration.problem);
-  double softness = sigma, before = INFINITY;
+  double softness = sigma, holding = std::min(kHolding, kHolding * sigma / kSigma), before = INFINITY;
   int steps = 0;
   while (iteration.next()) {
-    SpringProblem springs(iteration, softness * compliance, softness, 0.1 * tol, convex);
+    SpringProblem springs(iteration, softness * compliance, std::max(softness * holding, kLeastHolding), 0.1 * tol, convex);
     const bool solved = springs.solve();
     steps += springs.steps();
     if (solved) {
@@ -182,9 +183,11 @@ void Proximal::iterate(RowIteration& iteration) const {
       before = iteration.residual();
       const double harder = std::max(softness / kHarder, convex ? kLeastConvex : kLeastSigma);
       if (springs.rounded()) softness = std::min(kSofter * softness, std::max(softness, sigma));  // of which rounding makes less
-      else if (noise(iteration, harder * compliance) <= kNoisyStep * iteration.residual()) softness = harder;
+      else if (noise(iteration, iteration.at(), harder * compliance) <= kNoisyStep * iteration.residual()) softness = harder;
+      holding /= kHarder;
     } else {
       softness *= kSofter;
+      holding = std::min(kSofter * holding, kHolding);
     }
     if (iteration.record()) break;
     if (softness > kGreatestSigma) {

@@ -13,10 +13,10 @@ using problem::CondensedProblem;
 using problem::Problem;
 
 constexpr double kEps = std::numeric_limits<double>::epsilon();
-constexpr double kSumRoundings = 128;    // k: of the sums in x, and of the solve that made λ
+constexpr double kSumRoundings = 128;    // of the solve that made λ
 
 RowMeasure::RowMeasure(const problem::Problem& problem, const problem::CondensedProblem& condensed)
-    : condensed_(&condensed), c_(problem.c), measure_(problem, condensed) {}
+    : c_(problem.c), measure_(problem, condensed) {}
 
 Vector RowMeasure::forces(const Vector& lambda) const {
   std::vector<double> of_part = measure_.parts().norm(lambda);
@@ -28,11 +28,9 @@ Vector RowMeasure::by_row(const std::vector<double>& of_part) const {
   return Eigen::Map<const Vector>(of_part.data(), static_cast<Eigen::Index>(of_part.size()))(measure_.parts().of_row);
 }
 
-RowMeasure::Rho RowMeasure::rho(const Vector& lambda, const Vector& alpha, const Vector& x) const {
+RowMeasure::Rho RowMeasure::rho(const Vector& lambda, const Vector& x, Vector rounding) const {
   if (x.size() == 0) return {x, x};
-  // Row by row: where one body goes far, others' gaps are known as before. Nor may Wλ and Nα cancel.
-  Vector gross = condensed_->x0().cwiseAbs() + condensed_->W().cwiseAbs() * lambda.cwiseAbs();
-  if (alpha.size() > 0) gross += condensed_->N().cwiseAbs() * alpha.cwiseAbs();
+  // Row by row: where one body goes far, others' gaps are known as before.
   const problem::Parts& parts = measure_.parts();
   const std::vector<double> force = parts.greatest(lambda), stiffest = parts.greatest(stiffness());
   std::vector<double> moved = parts.greatest(x + c_);
@@ -43,7 +41,7 @@ RowMeasure::Rho RowMeasure::rho(const Vector& lambda, const Vector& alpha, const
     const int part = parts.of_row[r];
     if (const double length = std::max(moved[part], std::abs(c_[r])); length > 0) rho[r] = std::max(rho[r], force[part] / length);
   }
-  return {rho, kSumRoundings * kEps * gross};
+  return {rho, std::move(rounding)};
 }
 
 RowIteration::RowIteration(const Problem& on, const CondensedProblem& rows, const Settings& settings, double rho,
@@ -51,7 +49,13 @@ RowIteration::RowIteration(const Problem& on, const CondensedProblem& rows, cons
     : RowIteration(on, RowMeasure(on, rows), rows, settings, rho, monitor) {}
 
 RowIteration::RowIteration(const Problem& on, const RowIteration& outer, const Settings& settings, double rho, Monitor& monitor)
-    : RowIteration(on, outer.measure_, outer.condensed, settings, rho, monitor) {}
+    : RowIteration(on, outer.measure_, outer.condensed, settings, rho, monitor) {
+  if (!outer.centred_) return;
+  centred_ = outer.centred_, centre_ = outer.centre_, u_ = outer.u_;
+  map_ = NaturalMap(problem, *centred_, Vector(map_.rho()));
+  move_to(at_);
+  recorded_ = value_;
+}
 
 RowIteration::RowIteration(const Problem& on, RowMeasure measure, const CondensedProblem& rows, const Settings& settings, double rho,
                            Monitor& monitor)
@@ -63,7 +67,7 @@ RowIteration::RowIteration(const Problem& on, RowMeasure measure, const Condense
 }
 
 double RowIteration::off_laws(bool beyond_rounding) const {
-  const auto [rho, rounding] = measure_.rho(at_.lambda, at_.alpha, value_.x);
+  const auto [rho, rounding] = this->rho();
   const Vector force = forces();
   const Vector off = problem::distances_from_laws(problem, value_.x, at_.lambda, rho, beyond_rounding ? rounding : Vector());
   const double all = std::hypot(off.cwiseQuotient(force).norm(), map_.balancing(value_.unbalanced).cwiseQuotient(force).norm());
@@ -85,7 +89,7 @@ void RowIteration::move_to(Iterate iterate) {
 void RowIteration::begin_at(Iterate iterate) {
   move_to(std::move(iterate));
   recorded_ = value_;
-  first_ = best_ = at_;
+  first_ = best_ = at_, best_u_.resize(0);
   best_residual_ = residual();
   begun_ = true;
 }
@@ -96,7 +100,35 @@ bool RowIteration::next() {
   return true;
 }
 
+Vector RowIteration::displacements(const Iterate& of) const {
+  const Vector u = centred_ ? Vector(u_ + condensed.response(problem.B.transpose() * (centre_.lambda - of.lambda), of.alpha - centre_.alpha))
+                            : condensed.recover(of.lambda, of.alpha);
+  const Vector left = out_of_balance(problem, {u, of.lambda}), better = u + condensed.response(left, Vector::Zero(of.alpha.size()));
+  return out_of_balance(problem, {better, of.lambda}).norm() < 0.1 * left.norm() ? better : u;  // else it is rounding
+}
+
+/// Goes on about the iterate's displacements.
+void RowIteration::centre() {
+  if (problem.blocks.empty() || !at_.finite()) return;
+  const auto [rho, rounding] = this->rho();
+  if (rounding.cwiseProduct(rho).cwiseQuotient(forces()).norm() <= 0.1 * settings_.tol) return;
+  if (Vector u = displacements(at_); u.allFinite()) centre(at_, std::move(u));
+}
+
+void RowIteration::centre(const Iterate& at, Vector u) {
+  u_ = std::move(u), centre_ = at;
+  centred_ = std::make_shared<problem::CondensedProblem>(condensed.centred(problem, at.lambda, at.alpha, u_));
+  map_ = NaturalMap(problem, *centred_, Vector(map_.rho()));
+  move_to(at);
+}
+
+void RowIteration::go_to_best() {
+  if (best_u_.size() > 0) return centre(best_, best_u_);
+  move_to(best_);
+}
+
 bool RowIteration::record(IterationInfo info) {
+  centre();
   info.iteration = result_.iterations;
   info.active = value_.active;
   info.stick = value_.stick;
@@ -108,7 +140,10 @@ bool RowIteration::record(IterationInfo info) {
   record_active_set();
   monitor_.iteration(info);
   recorded_ = value_;
-  if (info.residual < best_residual_) best_ = at_, best_residual_ = info.residual;
+  if (info.residual < best_residual_) {
+    best_ = at_, best_residual_ = info.residual;
+    best_u_ = centred_ && !problem.blocks.empty() ? displacements(at_) : Vector();
+  }
   if (info.residual < 0.99 * milestone_) milestone_ = info.residual, at_milestone_ = info.iteration;
   return result_.converged = info.residual <= settings_.tol;
 }
@@ -118,9 +153,9 @@ void RowIteration::grant(int more) {
   result_.converged = false;
   result_.reason.clear();
   milestone_ = std::numeric_limits<double>::infinity();
-  map_ = NaturalMap(problem, condensed, measure_.stiffness());
+  map_ = NaturalMap(problem, rows(), measure_.stiffness());
   if (best_.lambda.size()) {
-    move_to(best_);
+    go_to_best();
     best_residual_ = residual();
   }
   move_to(first_);
@@ -150,7 +185,7 @@ Result RowIteration::finish() {
     result_.reason = monitor_.stop() ? "interrupted; this is the state so far"
                                      : text("no convergence within ", result_.iterations, " iterations");
   for (const std::string& remark : remarks_) result_.reason += "; " + remark;
-  if (!result_.converged && best_.lambda.size() && !(residual() <= best_residual_)) move_to(best_);
+  if (!result_.converged && best_.lambda.size() && !(residual() <= best_residual_)) go_to_best();
   record_active_set();
   result_.state.lambda = at_.lambda;
   result_.slipping = value_.slipping;
@@ -192,22 +227,21 @@ void refine_rounded(const Problem& problem, const CondensedProblem& condensed, d
 /// bodies to rounding of stiffness times displacement.
 bool RowIteration::accept() {
   constexpr double kRoundings = 100;  // of a product K u
-  if (!converged() && best_residual_ <= settings_.tol) move_to(best_), result_.converged = true;  // what a method after it was to do better
+  if (!converged() && best_residual_ <= settings_.tol) go_to_best(), result_.converged = true;  // what a method after it was to do better
   if (converged() || problem.blocks.empty() || astray(*this)) return converged();
-  const Iterate best = best_.lambda.size() && !(residual() <= best_residual_) ? best_ : at_;
-  problem::State state{condensed.recover(best.lambda, best.alpha), best.lambda};
+  if (best_.lambda.size() && !(residual() <= best_residual_)) go_to_best();
+  problem::State state{displacements(at_), at_.lambda};
   settle_on_springs(problem, result_.noise, state);
   const problem::Residual r = problem::residual(problem, state);
   const double allowed = std::min(result_.noise, std::max(kRounded, kRoundings * problem::rounding_of_equilibrium(problem, state)));
   if (!(r.laws() <= allowed && r.equilibrium <= allowed)) return false;
-  move_to(best);
   accepted_ = r.laws();
   return result_.converged = true;
 }
 
 bool RowIteration::stands() const {
   if (!converged() || problem.blocks.empty()) return converged();
-  return problem::distance_from_laws(problem, {condensed.recover(at_.lambda, at_.alpha), at_.lambda}) <= std::max(result_.noise, settings_.tol);
+  return problem::distance_from_laws(problem, {displacements(at_), at_.lambda}) <= std::max(result_.noise, settings_.tol);
 }
 
 Result solve(const Problem& problem, const CondensedProblem& condensed, const RowMethod& method, Monitor& monitor) {
@@ -228,10 +262,9 @@ Result solve(const Problem& problem, const CondensedProblem& condensed, const Ro
     }
   if (!monitor.stop()) iteration.accept();
   Result result = iteration.finish();
-  const Vector alpha = iteration.alpha();
   result.method = method.name();
   result.clock.iterate = watch.lap();
-  result.state.u = condensed.recover(result.state.lambda, alpha);
+  result.state.u = iteration.displacements(iteration.at());
   refine_rounded(problem, condensed, std::max(kRounded, method.tol), result);
   result.clock.recover = watch.lap();
   result.factor_bytes = condensed.factor_bytes();

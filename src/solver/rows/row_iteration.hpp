@@ -31,12 +31,11 @@ class RowMeasure {
     algebra::Vector rho;
     algebra::Vector rounding;  ///< by row, of x
   };
-  Rho rho(const algebra::Vector& lambda, const algebra::Vector& alpha, const algebra::Vector& x) const;
+  Rho rho(const algebra::Vector& lambda, const algebra::Vector& x, algebra::Vector rounding) const;
 
  private:
   algebra::Vector by_row(const std::vector<double>& of_part) const;
 
-  const problem::CondensedProblem* condensed_;
   algebra::Vector c_;
   problem::Measure measure_;
 };
@@ -57,6 +56,9 @@ class RowIteration {
   const problem::CondensedProblem& condensed;
   const NaturalMap& map = map_;
 
+  /// The rows about the last state that was recorded, where x₀ − Wλ + Nα would lose the digits that count.
+  const problem::CondensedProblem& rows() const { return centred_ ? *centred_ : condensed; }
+
   const Iterate& at() const { return at_; }
   const algebra::Vector& lambda() const { return at_.lambda; }
   const algebra::Vector& alpha() const { return at_.alpha; }
@@ -71,7 +73,8 @@ class RowIteration {
   /// By row, the force that the iterate's errors are measured by (RowMeasure::forces()); 1 where it would vanish.
   algebra::Vector forces() const;
   /// By row, how far rounding may put the iterate's jump off, a displacement.
-  algebra::Vector rounding() const { return measure_.rho(at_.lambda, at_.alpha, value_.x).rounding; }
+  algebra::Vector rounding() const { return rounding(at_); }
+  algebra::Vector rounding(const Iterate& of) const { return rows().rounding(of.lambda, of.alpha); }
   /// ‖λ − P(λ + ρx)‖ of the iterate: F without what is out of balance.
   double law_residual() const { return (at_.lambda - value_.projected).norm(); }
   void move_to(Iterate iterate);
@@ -83,6 +86,8 @@ class RowIteration {
 
   /// Begins an iteration; false after the last one allowed, or where the user stops.
   bool next();
+  /// The displacements of an iterate.
+  algebra::Vector displacements(const Iterate& of) const;
   /// Writes the iterate into the history, with what `info` says beyond that; true where its residual is within tol.
   bool record(IterationInfo info = {});
   /// The residual's least value has not fallen by a hundredth in the last `patience` iterations, or the
@@ -116,6 +121,10 @@ class RowIteration {
  private:
   RowIteration(const problem::Problem& problem, RowMeasure measure, const problem::CondensedProblem& condensed, const Settings& settings,
                double rho, Monitor& monitor);
+  RowMeasure::Rho rho() const { return measure_.rho(at_.lambda, value_.x, rounding()); }
+  void centre();
+  void centre(const Iterate& at, algebra::Vector u);
+  void go_to_best();
   void record_active_set();
   double off_laws(bool beyond_rounding) const;
 
@@ -124,6 +133,10 @@ class RowIteration {
   const Settings& settings_;
   Monitor& monitor_;
   Result result_;
+  std::shared_ptr<const problem::CondensedProblem> centred_;  ///< null: not yet
+  Iterate centre_;
+  algebra::Vector u_;       ///< displacements there
+  algebra::Vector best_u_;  ///< of best_; empty: recovered
   bool begun_ = false;
   Iterate at_, first_, best_;  ///< first_: where it began; best_: of least residual; empty: none yet
   double best_residual_ = std::numeric_limits<double>::infinity();
