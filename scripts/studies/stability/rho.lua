@@ -5,8 +5,9 @@
 -- pdas is Newton's method on λ = π(λ + ρ(Bu − c)). After its first linear solve λ·x = 0 on every row, so a sign of λ
 -- + ρx is the sign of λ or that of x: ρ chooses the first set, then drops out (TR965 1.2.1). With friction a slipping
 -- point has neither zero slip nor a force inside its bound, and ρ stays. Then λ + ρx is known to rounding ε = 2.2e-16
--- of λ or of ρx: forces to ερ, jumps to ε/ρ of what the rows see, so that between ρ = ε/tol and tol/ε, and there
--- alone, tol can be met. Where Newton's method loses its way dotyk hands the problem over to other methods, with
+-- of λ or of ρx: forces to ερ, jumps to ε/ρ of what the rows see, so that tol could be met between ρ = ε/tol and tol/ε
+-- were jumps differences of what loads and forces make. Where that matters they are computed from the state's own
+-- displacements, and ρ may be less and far greater. Where Newton's method loses its way dotyk hands the problem over to other methods, with
 -- ρ = 1, and the reason says so: here that is no success of Newton's ("other"). Iterations against ρ, in units of the
 -- stiffness that a row sees; then both ends by bisection, for several tol. Every state that is called converged,
 -- whichever method found it, is compared with that of another method. Draws images/stability_rho.png (iterations) and
@@ -14,7 +15,6 @@
 
 local n <const> = tonumber(arg[1]) or 32
 local common <const> = include "../../lib/common.lua"
-local fit <const> = include "../../lib/least_squares.lua"
 local scenes <const> = include "../../lib/friction.lua"
 
 local function punch() return common.punch(n) end
@@ -71,7 +71,7 @@ local scene <const>, contact <const> = scenes.lifted(n, coulomb)
 local exact <const> = dotyk.solver.newton{}:solve(scene)
 local ends <const> = { common.curve("least ρ", { style = "points" }), common.curve("greatest ρ", { style = "points" }) }
 local laws <const> = { common.curve("ε/tol, ε = 2⁻⁵²", { reference = true }), common.curve("tol/ε", { reference = true }) }
-local factor = 1
+local short = 0 -- of the ends, 1 where they are met
 print "\n  tol   least ρ    ε/tol   greatest ρ    tol/ε"
 for power = -11, -6 do
   local tol = 10.0^power
@@ -88,12 +88,11 @@ for power = -11, -6 do
   laws[1]:add(tol, epsilon / tol)
   laws[2]:add(tol, tol / epsilon)
   print(("%.0e   %.1e  %.1e      %.1e  %.1e"):format(tol, least, epsilon / tol, greatest, tol / epsilon))
-  factor = math.max(factor, least * tol / epsilon, epsilon / tol / least, greatest * epsilon / tol, tol / epsilon / greatest)
+  short = math.max(short, least * tol / epsilon, tol / epsilon / greatest)
 end
 dotyk.chart{ file = "images/stability_rho_tol.png", log = "xy", x = "tolerance tol", y = "ρ / stiffness of a contact row", series = { ends[1], ends[2], laws[1], laws[2] } }
 print "images/stability_rho.png, images/stability_rho_tol.png"
-local slopes <const> = math.max(math.abs(fit.order(ends[1].x, ends[1].y) + 1), math.abs(fit.order(ends[2].x, ends[2].y) - 1))
 
-common.verdict(wrong == 0 and lost == 0 and rescued > 0 and pdas_spread == 0 and small_spread <= 5 and factor < 30 and slopes < 0.1, ("pdas takes the same %d iterations at most for every ρ from 1e-8 "
-  .. "to 1e8; Newton's method with friction the same but for %d from 1e-5 up to ρ = 1, its default, and can meet tol from ρ = ε/tol to tol/ε (slopes within %.2f, a factor of %.0f inside), "
-  .. "beyond which other methods solve all %d cases that it loses"):format(most_pdas, small_spread, slopes, factor, rescued))
+common.verdict(wrong == 0 and lost == 0 and rescued > 0 and pdas_spread == 0 and small_spread <= 5 and short < 1, ("pdas takes the same %d iterations at most for every ρ from 1e-8 "
+  .. "to 1e8; Newton's method with friction the same but for %d from 1e-5 up to ρ = 1, its default, and can meet tol from below ρ = ε/tol to above tol/ε (by factors of %.2g and more), "
+  .. "beyond which other methods solve all %d cases that it loses"):format(most_pdas, small_spread, 1 / short, rescued))
