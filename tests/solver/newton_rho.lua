@@ -33,5 +33,5 @@ for _, law in ipairs{ dotyk.friction.tresca(2.5), dotyk.friction.coulomb(0.3) } 
     assert(math.abs(s.energy / exact.energy - 1) < 1e-8, ("rho = %g: energy %g, not %g"):format(rho, s.energy, exact.energy))
     if s.reason:find("newton lost its way", 1, true) then rescued = rescued + 1 end
   end
-  assert(rescued >= 3, rescued)
+  assert(rescued >= 2, rescued)
 end

@@ -55,12 +55,14 @@ void refuse_residuals(const Problem& problem, const Residual& r, Result& result)
   const double laws = result.penalty ? r.law : r.laws();
   const std::string unloaded = problem.loaded() ? "" : " (no load gives forces a scale: if they should vanish, take pdas, which ends exactly)";
   const std::string unexplained = (result.asked > kMostGranted ? text(", and beyond ", kMostGranted, " none is a solution, whatever tol") : ", which neither tol nor rounding explains") + unloaded;
-  if (equilibrium > allowed && equilibrium > kRoundings * problem::rounding_of_equilibrium(problem, result.state))
-    refuse(text("the state is off equilibrium by ", equilibrium, unexplained), result);
+  const char* far_apart = result.feti ? "stiffnesses, supports or sizes are too far apart for this decomposition, or tol is too great"
+                                      : "stiffnesses, supports or sizes are too far apart (a material nearly incompressible, a spring nearly absent, cells "
+                                        "nearly flat, a beam far stiffer than its cells' foundation)";
+  if (equilibrium > allowed && result.asked > kMostGranted) refuse(text("the state is off equilibrium by ", equilibrium, unexplained), result);
+  else if (equilibrium > allowed && equilibrium > kRoundings * problem::rounding_of_equilibrium(problem, result.state))
+    refuse(text("the state is off equilibrium by ", equilibrium, ", more than rounding of its terms", unloaded, ": the method has not solved it, or ", far_apart), result);
   else if (equilibrium > allowed)
-    refuse(text("rounding leaves a residual of ", equilibrium, " in equilibrium", unloaded, ": stiffnesses, supports or sizes are too far apart ",
-                result.feti ? "for this decomposition, or tol is too great"
-                            : "(a material nearly incompressible, a spring nearly absent, cells nearly flat, a beam far stiffer than its cells' foundation)"), result);
+    refuse(text("rounding leaves a residual of ", equilibrium, " in equilibrium", unloaded, ": ", far_apart), result);
   else if (laws > std::max(asked, penalty))
     refuse(text("the state is off the laws of contact and supports by ", laws, unexplained), result);
 }
