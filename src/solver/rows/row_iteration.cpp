@@ -51,7 +51,7 @@ RowIteration::RowIteration(const Problem& on, const CondensedProblem& rows, cons
 RowIteration::RowIteration(const Problem& on, const RowIteration& outer, const Settings& settings, double rho, Monitor& monitor)
     : RowIteration(on, outer.measure_, outer.condensed, settings, rho, monitor) {
   if (!outer.centred_) return;
-  centred_ = outer.centred_, centre_ = outer.centre_, u_ = outer.u_;
+  centred_ = outer.centred_, centre_ = outer.centre_, u_ = outer.u_, lost_ = outer.lost_;
   map_ = NaturalMap(problem, *centred_, Vector(map_.rho()));
   move_to(at_);
   recorded_ = value_;
@@ -107,11 +107,15 @@ Vector RowIteration::displacements(const Iterate& of) const {
   return out_of_balance(problem, {better, of.lambda}).norm() < 0.1 * left.norm() ? better : u;  // else it is rounding
 }
 
-/// Goes on about the iterate's displacements.
-void RowIteration::centre() {
-  if (problem.blocks.empty() || !at_.finite()) return;
+/// What rounding of the jump makes of the forces, relative.
+double RowIteration::lost() const {
   const auto [rho, rounding] = this->rho();
-  if (rounding.cwiseProduct(rho).cwiseQuotient(forces()).norm() <= 0.1 * settings_.tol) return;
+  return rounding.cwiseProduct(rho).cwiseQuotient(forces()).norm();
+}
+
+/// Goes on about the iterate's displacements, where less is lost to rounding about them than about the last ones.
+void RowIteration::centre() {
+  if (problem.blocks.empty() || !at_.finite() || lost() <= std::max(0.1 * settings_.tol, 2 * lost_)) return;
   if (Vector u = displacements(at_); u.allFinite()) centre(at_, std::move(u));
 }
 
@@ -120,6 +124,7 @@ void RowIteration::centre(const Iterate& at, Vector u) {
   centred_ = std::make_shared<problem::CondensedProblem>(condensed.centred(problem, at.lambda, at.alpha, u_));
   map_ = NaturalMap(problem, *centred_, Vector(map_.rho()));
   move_to(at);
+  lost_ = lost();
 }
 
 void RowIteration::go_to_best() {

@@ -122,6 +122,7 @@ class RowIteration {
   RowIteration(const problem::Problem& problem, RowMeasure measure, const problem::CondensedProblem& condensed, const Settings& settings,
                double rho, Monitor& monitor);
   RowMeasure::Rho rho() const { return measure_.rho(at_.lambda, value_.x, rounding()); }
+  double lost() const;
   void centre();
   void centre(const Iterate& at, algebra::Vector u);
   void go_to_best();
@@ -136,6 +137,7 @@ class RowIteration {
   std::shared_ptr<const problem::CondensedProblem> centred_;  ///< null: not yet
   Iterate centre_;
   algebra::Vector u_;       ///< displacements there
+  double lost_ = 0;         ///< lost() there
   algebra::Vector best_u_;  ///< of best_; empty: recovered
   bool begun_ = false;
   Iterate at_, first_, best_;  ///< first_: where it began; best_: of least residual; empty: none yet
