@@ -57,3 +57,32 @@ for _, case in ipairs(cases) do
     end
   end
 end
+
+-- A held edge is no plane of symmetry where nodes beside it in the plane are free: friction acts there along the plane's normal, too.
+for _, pairing in ipairs{ "node_to_segment", "mortar" } do
+  local function block(name, z, cells, E)
+    return dotyk.body{ name = name, material = dotyk.material{ E = E, nu = 0.3 },
+                       mesh = dotyk.mesh.box{ from = { 0, 0, z }, to = { 2, 2, z + 1 }, cells = cells } }
+  end
+  local low, high = block("low", 0, { 3, 2, 2 }, 1000), block("high", 1, { 4, 3, 2 }, 3000)
+  low:part"bottom":fix()
+  low:part"front":fix "y"
+  high:part"left":fix()
+  high:part"right":load{ 0, 4, 0 }
+  high:part"top":load{ 0, 0, -1 }
+  local scene <const> = dotyk.scene{ low, high }
+  local contact <const> = scene:contact{ low:part"top", high:part"bottom", pairing = pairing, friction = dotyk.friction.tresca(0.3) }
+  local s <const> = dotyk.solve(scene)
+  assert(s.converged, s.reason)
+  local across = 0
+  for _, node in ipairs(s:contact(contact).nodes) do
+    local slip <const>, shear <const> = node.slip, node.shear
+    local way <const> = math.sqrt(slip[1] ^ 2 + slip[2] ^ 2)
+    if way > 1e-7 then
+      local off <const> = math.sqrt((shear[1] + 0.3 * slip[1] / way) ^ 2 + (shear[2] + 0.3 * slip[2] / way) ^ 2)
+      assert(off < 1e-4, ("%s at (%g, %g): shear (%g, %g) does not oppose slip (%g, %g)"):format(pairing, node.x, node.y, shear[1], shear[2], slip[1], slip[2]))
+      if node.y < 1e-9 then across = math.max(across, math.abs(slip[2])) end
+    end
+  end
+  assert(pairing == "mortar" or across > 1e-5, "nodes slip off the front")
+end

@@ -30,7 +30,7 @@ struct Sort {
 Known known(test::Random& random, const Sort& sort) {
   const int n = sort.rows;
   const DenseMatrix A = random.matrix(n, sort.rank);
-  Known k{{A * A.transpose(), Vector::Zero(n), Vector(n), Vector(n), random.matrix(n, sort.motions), Vector()}, Vector(n), random.vector(sort.motions)};
+  Known k{{A * A.transpose(), Vector::Zero(n), Vector(n), Vector(n), random.matrix(n, sort.motions), Vector(), Vector::Ones(n), 1}, Vector(n), random.vector(sort.motions)};
   BoxProgram& p = k.program;
   Vector pressed = Vector::Zero(n);
   for (int i = 0; i < n; ++i) {
@@ -110,6 +110,7 @@ TEST_CASE("units of forces and of rows do not matter") {
       scaled.low = force * k.program.low.cwiseQuotient(unit), scaled.high = force * k.program.high.cwiseQuotient(unit);
       scaled.N = unit.asDiagonal() * k.program.N;
       scaled.e = force * k.program.e;
+      scaled.unit = force * unit.cwiseInverse(), scaled.energy = force * force;
       const auto t = solver::solve_by_barrier(scaled, kTol);
       REQUIRE(t.converged);
       CHECK((t.lambda.cwiseProduct(unit) / force - s.lambda).lpNorm<Eigen::Infinity>() < 1e-6);
@@ -122,7 +123,7 @@ TEST_CASE("bounds far beyond what is borne do not slow it down") {
   test::Random random(9);
   for (const double bound : {1e3, 1e8, 1e13}) {
     const DenseMatrix A = random.matrix(20, 24);
-    BoxProgram p{A * A.transpose(), random.vector(20), Vector::Zero(20), Vector::Constant(20, bound), DenseMatrix(20, 0), Vector(0)}, open = p;
+    BoxProgram p{A * A.transpose(), random.vector(20), Vector::Zero(20), Vector::Constant(20, bound), DenseMatrix(20, 0), Vector(0), Vector::Ones(20), 1}, open = p;
     open.high.setConstant(INFINITY);
     const auto s = solver::solve_by_barrier(p, kTol), t = solver::solve_by_barrier(open, kTol);
     REQUIRE(s.converged);
@@ -132,15 +133,15 @@ TEST_CASE("bounds far beyond what is borne do not slow it down") {
 }
 
 TEST_CASE("no rows, rows without freedom, and programs that have no solution") {
-  const BoxProgram none{DenseMatrix(0, 0), Vector(0), Vector(0), Vector(0), DenseMatrix(0, 0), Vector(0)};
+  const BoxProgram none{DenseMatrix(0, 0), Vector(0), Vector(0), Vector(0), DenseMatrix(0, 0), Vector(0), Vector(0), 1};
   CHECK(solver::solve_by_barrier(none, kTol).lambda.size() == 0);
-  const BoxProgram pinned{DenseMatrix::Identity(2, 2), Vector{{1, 2}}, Vector{{3, 4}}, Vector{{3, 4}}, DenseMatrix(2, 0), Vector(0)};
+  const BoxProgram pinned{DenseMatrix::Identity(2, 2), Vector{{1, 2}}, Vector{{3, 4}}, Vector{{3, 4}}, DenseMatrix(2, 0), Vector(0), Vector::Ones(2), 1};
   CHECK(solver::solve_by_barrier(pinned, kTol).lambda == Vector{{3, 4}});
   // λ ≥ 0 with sum −1.
-  const BoxProgram contradictory{DenseMatrix::Identity(2, 2), Vector{{1, 2}}, Vector::Zero(2), Vector::Constant(2, INFINITY), DenseMatrix::Ones(2, 1), Vector{{-1.0}}};
+  const BoxProgram contradictory{DenseMatrix::Identity(2, 2), Vector{{1, 2}}, Vector::Zero(2), Vector::Constant(2, INFINITY), DenseMatrix::Ones(2, 1), Vector{{-1.0}}, Vector::Ones(2), 1};
   CHECK_FALSE(solver::solve_by_barrier(contradictory, kTol).converged);
   // −λ has no least value.
-  const BoxProgram unbounded{DenseMatrix::Zero(2, 2), Vector{{1, 1}}, Vector::Zero(2), Vector::Constant(2, INFINITY), DenseMatrix(2, 0), Vector(0)};
+  const BoxProgram unbounded{DenseMatrix::Zero(2, 2), Vector{{1, 1}}, Vector::Zero(2), Vector::Constant(2, INFINITY), DenseMatrix(2, 0), Vector(0), Vector::Ones(2), 1};
   CHECK_FALSE(solver::solve_by_barrier(unbounded, kTol).converged);
 }
 
@@ -156,7 +157,7 @@ TEST_CASE("the dual of a problem with contact, springs and friction: what enumer
     const problem::CondensedProblem condensed(p, problem::rigid_motions(p), algebra::Ordering::automatic, clock, quiet);
     std::vector<int> all(rows);
     std::iota(all.begin(), all.end(), 0);
-    const auto s = solver::solve_by_barrier(solver::box_program(p, condensed, all, std::vector<double>(rows, 1)), 1e-11);
+    const auto s = solver::solve_by_barrier(solver::box_program(p, condensed, problem::Measure(p, condensed), all, std::vector<double>(rows, 1)), 1e-11);
     REQUIRE(s.converged);
     CHECK((s.lambda - exact->lambda).lpNorm<Eigen::Infinity>() < 1e-6 * (1 + exact->lambda.lpNorm<Eigen::Infinity>()));
   }

@@ -244,9 +244,9 @@ local function check_equilibrium(scene, made, solution, contacts, supports, tol,
   tol.gross = 0
   for _, sum in pairs(sums) do tol.gross = tol.gross + sum.gross end
   for k, sum in pairs(sums) do
-    -- Beside the accuracy of forces: rounding of inner forces, a body's stiffness times its motion.
+    -- Beside the accuracy of forces: rounding of inner forces, a body's stiffness times its motion or what rounding of places leaves.
     -- What a loose tolerance leaves is beside all forces, and where nothing is loaded beside 1e-8 of those that gaps would make.
-    local rounding = 1e-12 * scene.stiffest * tol.length * scene.size^(scene.dimension - 2) + (scene.accuracy or 1e-9) * tol.gross
+    local rounding = (1e-12 * tol.length + 1e-16 * extent) * scene.stiffest * scene.size^(scene.dimension - 2) + (scene.accuracy or 1e-9) * tol.gross
       + (scene.accuracy or 0) * 1e-8 * scene.stiffest * scene.reach * scene.size^(scene.dimension - 2)
     if not (norm(sum.force) <= tol.accuracy * sum.gross + rounding) then -- also where it is not a number
       wrong("forces on b%d do not balance: %.3g of %.3g", k, norm(sum.force), sum.gross)
@@ -300,6 +300,10 @@ function checks.check(scene, made, solution, before)
   -- Where loads meet their reactions at once nothing moves: forces count by what they would move the stiffest body by.
   local moved <const> = math.max(tol.length, tol.stress * scene.size / scene.stiffest)
   tol.energy = tol.accuracy / 1e-6 * (1e-9 * tol.gross + 1e-7 * rubbing) * moved + 1e-12 * nodal.rounding
+  -- Gaps are known to 1e-10 of what forces move the softest body by.
+  local softest = math.huge
+  for _, body in ipairs(scene.bodies) do softest = math.min(softest, body.E) end
+  tol.energy = tol.energy + 1e-10 * tol.gross ^ 2 / (softest * scene.size ^ (scene.dimension - 2))
   if scene.accuracy and rubbing > 0 then tol.energy = tol.energy + scene.accuracy / 20 * tol.gross * moved end -- forces off by tol slip
   if tol.gross < 1e-6 * scene.stress * scene.size ^ (scene.dimension - 1) then -- nothing is loaded
     tol.energy = tol.energy + 1e-10 * scene.stiffest * scene.size ^ scene.dimension

@@ -101,7 +101,7 @@ FreeJumps::Node FreeJumps::of_node(const Side& side, int node) const {
 
 Matrix3d FreeJumps::at(const contact::ContactRow& row) const {
   if (second_.numbering && row.partners.size() > 1)
-    if (const auto plane = plane_of_symmetry(row.node, row.partners, &row.normal)) return *plane;
+    if (const auto plane = plane_of_symmetry(row.node, row.own, row.partners, &row.normal)) return *plane;
   Matrix3d sum = Matrix3d::Zero();
   for (const contact::NodeWeight& own : row.own) sum += of_node(first_, own.node).free;
   if (second_.numbering)
@@ -112,7 +112,7 @@ Matrix3d FreeJumps::at(const contact::ContactRow& row) const {
 
 std::vector<Point> FreeJumps::at(const contact::Tie& tie) const {
   std::optional<Matrix3d> V;
-  if (tie.own.size() == 1) V = plane_of_symmetry(tie.node, tie.partners, nullptr);
+  if (tie.own.size() == 1) V = plane_of_symmetry(tie.node, tie.own, tie.partners, nullptr);
   if (!V) {
     Matrix3d sum = of_node(second_, facing(contact_, tie.node, tie.partners)).free;
     for (const contact::NodeWeight& own : tie.own) sum += of_node(first_, own.node).free;
@@ -147,16 +147,27 @@ double FreeJumps::torn(const contact::Tie& tie) const {
   return given.empty() || nearest <= spread ? 0 : nearest;
 }
 
-std::optional<Matrix3d> FreeJumps::plane_of_symmetry(int node, const std::vector<contact::NodeWeight>& partners, const Point* normal) const {
+bool FreeJumps::stay(const Side& side, const mesh::Mesh& mesh, const std::vector<contact::NodeWeight>& nodes, const Point& in, const Matrix3d& V) const {
+  return std::all_of(nodes.begin(), nodes.end(), [&](const contact::NodeWeight& n) {
+    const Vector3d apart = vector(mesh.point(n.node)) - vector(in);
+    const Matrix3d free = of_node(side, n.node).free;
+    return std::abs(n.weight) <= kNoWeight || (apart - V * apart).norm() > kInPlane * mesh.size() || (free - V * free).norm() <= kHeld;
+  });
+}
+
+std::optional<Matrix3d> FreeJumps::plane_of_symmetry(int node, const std::vector<contact::NodeWeight>& own, const std::vector<contact::NodeWeight>& partners,
+                                                     const Point* normal) const {
   const mesh::Mesh &mesh = *contact_.first.body->mesh, &other = *contact_.second.body->mesh;
-  const Matrix3d own = of_node(first_, node).free;
-  if (dimension_of(own) == dim_ || mesh.topology().order == 2) return std::nullopt;
+  const Matrix3d free = of_node(first_, node).free;
+  if (dimension_of(free) == dim_ || mesh.topology().order == 2) return std::nullopt;
+  const Point x = mesh.point(node);
   std::optional<Matrix3d> least;
   for (const contact::NodeWeight& partner : partners) {
-    const Matrix3d V = onto_range(own + of_node(second_, partner.node).free);
-    if (least && dimension_of(V) >= dimension_of(*least)) continue;
-    const Vector3d apart = vector(mesh.point(node)) - vector(other.point(partner.node));
-    if (dimension_of(V) < dim_ && (!normal || (V * vector(*normal)).norm() > kHeld) && (apart - V * apart).norm() <= kInPlane * mesh.size()) least = V;
+    const Matrix3d V = onto_range(free + of_node(second_, partner.node).free);
+    if (dimension_of(V) == dim_ || (least && dimension_of(V) >= dimension_of(*least)) || (normal && (V * vector(*normal)).norm() <= kHeld)) continue;
+    const Vector3d apart = vector(x) - vector(other.point(partner.node));
+    if ((apart - V * apart).norm() > kInPlane * mesh.size()) continue;
+    if (stay(first_, mesh, own, x, V) && stay(second_, other, partners, x, V)) least = V;
   }
   return least;
 }

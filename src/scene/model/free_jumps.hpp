@@ -11,8 +11,8 @@ namespace dotyk::scene {
 /// What supports leave free of the jump u₁ − u₂ at the rows of a contact: the sum V of the spaces in which the row's nodes, own and
 /// partners, are not held by fix, slide or displace, oblique slides included, or by laws that prescribe a displacement, whatever its value;
 /// of order 2 such laws are about means, and hold no node.
-/// On a plane of symmetry V is that plane, if the row's node and one of its partners lie in the plane and stay in it. Other nodes of the row may lie
-/// off the plane.
+/// On a plane of symmetry V is that plane, if the row's node and one of its partners lie in the plane, and all nodes of the row that lie in it
+/// stay in it. Other nodes of the row may lie off the plane.
 class FreeJumps {
  public:
   /// Not kept: `bodies` as they are solved, `numbering` of each.
@@ -43,9 +43,12 @@ class FreeJumps {
   };
   static Side side_of(const Body& body, const elasticity::Numbering& numbering);
   Node of_node(const Side& side, int node) const;
-  /// The plane or line in which the node and one of its partners lie, and which supports do not let them leave. With a normal, planes perpendicular to
-  /// it are not considered.
-  std::optional<Eigen::Matrix3d> plane_of_symmetry(int node, const std::vector<contact::NodeWeight>& partners, const mesh::Point* normal) const;
+  /// Do those of the nodes that lie in the plane V through a point stay in it?
+  bool stay(const Side& side, const mesh::Mesh& mesh, const std::vector<contact::NodeWeight>& nodes, const mesh::Point& in, const Eigen::Matrix3d& V) const;
+  /// The plane or line in which the node and one of its partners lie, and which supports let none of `own` and `partners` leave that lie in it.
+  /// With a normal, planes perpendicular to it are not considered.
+  std::optional<Eigen::Matrix3d> plane_of_symmetry(int node, const std::vector<contact::NodeWeight>& own, const std::vector<contact::NodeWeight>& partners,
+                                                   const mesh::Point* normal) const;
 
   const Contact& contact_;
   Side first_, second_;  ///< second: of a rigid shape without numbering

@@ -9,11 +9,12 @@ namespace dotyk::solver {
 using algebra::DenseMatrix;
 using algebra::Vector;
 
-BoxProgram box_program(const problem::Problem& problem, const problem::CondensedProblem& condensed, const std::vector<int>& rows,
-                       const std::vector<double>& stands_for) {
+BoxProgram box_program(const problem::Problem& problem, const problem::CondensedProblem& condensed, const problem::Measure& measure,
+                       const std::vector<int>& rows, const std::vector<double>& stands_for) {
   const auto groups = problem.group_of_rows();
   const int n = static_cast<int>(rows.size());
-  BoxProgram p{condensed.W()(rows, rows), condensed.x0()(rows), Vector(n), Vector(n), condensed.N()(rows, Eigen::all), condensed.e()};
+  BoxProgram p{condensed.W()(rows, rows), condensed.x0()(rows), Vector(n), Vector(n), condensed.N()(rows, Eigen::all), condensed.e(),
+               measure.stiffness()(rows).cwiseSqrt(), 0};
   for (int j = 0; j < n; ++j) {
     const int r = rows[j], k = r - groups[r]->first;
     const double f = stands_for[r];
@@ -23,7 +24,9 @@ BoxProgram box_program(const problem::Problem& problem, const problem::Condensed
     const problem::Interval bounds = groups[r]->law->multipliers(k);
     p.low[j] = f * bounds.low;
     p.high[j] = f * bounds.high;
+    p.energy = std::max(p.energy, std::pow(measure.force_of_row(r) / p.unit[j], 2));
   }
+  p.unit *= std::sqrt(p.energy);
   return p;
 }
 
@@ -32,43 +35,13 @@ namespace {
 constexpr int kMostBarrierSteps = 80;
 constexpr double kUndecidedBound = 1e-8;  ///< of the tolerance: bounds that are undecided there touch without pressing
 
-/// A program in units in which H has a diagonal of 1, g a greatest entry of 1 and columns of N are of length 1, without rows that have one
-/// multiplier only.
-struct ScaledBox {
-  explicit ScaledBox(const BoxProgram& whole);
-  int size() const { return static_cast<int>(rows.size()); }
-
-  std::vector<int> rows;  ///< of the whole program
-  double force = 1;
-  Vector unit, motion_unit;  ///< of multipliers, besides `force`, and of motions
-  BoxProgram program;
-};
-
-ScaledBox::ScaledBox(const BoxProgram& whole) {
-  const int m = static_cast<int>(whole.N.cols());
-  Vector fixed = Vector::Zero(whole.g.size());
-  for (int i = 0; i < fixed.size(); ++i) {
-    if (whole.low[i] < whole.high[i]) rows.push_back(i);
-    else fixed[i] = whole.low[i];
-  }
-  const Vector diagonal = whole.H.diagonal(), g = whole.g - whole.H * fixed;
-  unit = diagonal(rows).cwiseMax(1e-14 * (size() > 0 ? diagonal.maxCoeff() : 1)).cwiseSqrt().cwiseInverse();
-  program = {unit.asDiagonal() * whole.H(rows, rows) * unit.asDiagonal(), unit.cwiseProduct(g(rows)), {}, {},
-             unit.asDiagonal() * whole.N(rows, Eigen::all), whole.e - whole.N.transpose() * fixed};
-  if (size() > 0) force = program.g.lpNorm<Eigen::Infinity>();
-  if (m > 0) force = std::max(force, program.e.lpNorm<Eigen::Infinity>() / std::max(1e-300, program.N.lpNorm<Eigen::Infinity>()));
-  if (!(force > 0)) force = 1;
-  program.g /= force, program.e /= force;
-  program.low = whole.low(rows).cwiseQuotient(unit * force);
-  program.high = whole.high(rows).cwiseQuotient(unit * force);
-  motion_unit = Vector::Zero(m);
-  for (int j = 0; j < m; ++j) {
-    const double length = program.N.col(j).norm();
-    if (length == 0) continue;
-    program.N.col(j) /= length;
-    program.e[j] /= length;
-    motion_unit[j] = force / length;
-  }
+/// Without dimension, on these rows; the others keep their multipliers `fixed`. α is in units of E over the greatest unit of force.
+BoxProgram scaled(const BoxProgram& p, const std::vector<int>& rows, const Vector& fixed) {
+  const Vector unit = p.unit(rows), ones = Vector::Ones(unit.size());
+  const double force = p.unit.maxCoeff();
+  return {unit.asDiagonal() * p.H(rows, rows) * unit.asDiagonal() / p.energy, unit.cwiseProduct((p.g - p.H * fixed)(rows)) / p.energy,
+          p.low(rows).cwiseQuotient(unit), p.high(rows).cwiseQuotient(unit), unit.asDiagonal() * p.N(rows, Eigen::all) / force,
+          (p.e - p.N.transpose() * fixed) / force, ones, 1};
 }
 
 /// w is λ, x is α.
@@ -118,9 +91,13 @@ class BoxBarrier final : public program::Barrier {
 }  // namespace
 
 BoxSolution solve_by_barrier(const BoxProgram& program, double tol) {
-  const ScaledBox scaled(program);
-  BoxBarrier barrier(scaled.program);
-  BoxSolution out;
+  std::vector<int> rows;
+  BoxSolution out{program.low, Vector::Zero(program.N.cols()), std::vector<signed char>(program.g.size(), 0)};
+  for (int i = 0; i < program.g.size(); ++i)
+    if (program.low[i] < program.high[i]) rows.push_back(i), out.lambda[i] = 0;
+  if (program.g.size() == 0) return out;
+  const BoxProgram without = scaled(program, rows, out.lambda);
+  BoxBarrier barrier(without);
   for (barrier.evaluate(); out.iterations < kMostBarrierSteps && barrier.step(); ++out.iterations) {
     barrier.evaluate();
     const bool within = barrier.error() <= tol;
@@ -128,13 +105,11 @@ BoxSolution solve_by_barrier(const BoxProgram& program, double tol) {
     out.converged = within;
     if (within && (barrier.decided() || barrier.gap() <= kUndecidedBound * tol)) break;
   }
-  out.lambda = program.low;
-  out.alpha = barrier.point().x.cwiseProduct(scaled.motion_unit);
-  out.side.assign(program.g.size(), 0);
+  out.alpha = barrier.point().x * program.energy / program.unit.maxCoeff();
   const auto ends = barrier.ends();
-  for (int k = 0; k < scaled.size(); ++k) {
-    const int i = scaled.rows[k];
-    out.lambda[i] = std::clamp(barrier.point().w[k] * scaled.unit[k] * scaled.force, program.low[i], program.high[i]);
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const int i = rows[k];
+    out.lambda[i] = std::clamp(program.unit[i] * barrier.point().w[static_cast<Eigen::Index>(k)], program.low[i], program.high[i]);
     out.side[i] = static_cast<signed char>(ends[k].side);
   }
   return out;

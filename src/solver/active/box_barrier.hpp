@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "problem/condensed.hpp"
+#include "problem/measure.hpp"
 #include "problem/problem.hpp"
 
 namespace dotyk::solver {
@@ -14,11 +15,14 @@ struct BoxProgram {
   algebra::Vector g, low, high;
   algebra::DenseMatrix N;   ///< rows × rigid motions
   algebra::Vector e;
+  algebra::Vector unit;     ///< what counts as a force, by row
+  double energy;            ///< and as an energy
 };
 
-/// On some rows, each law scaled to stand for so many rows. Of a law with two stiffnesses the mean compliance is taken.
-BoxProgram box_program(const problem::Problem& problem, const problem::CondensedProblem& condensed, const std::vector<int>& rows,
-                       const std::vector<double>& stands_for);
+/// On some rows, each law scaled to stand for so many rows. Of a law with two stiffnesses the mean compliance is taken. Units: of a row
+/// √k √E, E = max F²/k, with F and k of the measure.
+BoxProgram box_program(const problem::Problem& problem, const problem::CondensedProblem& condensed, const problem::Measure& measure,
+                       const std::vector<int>& rows, const std::vector<double>& stands_for);
 
 struct BoxSolution {
   algebra::Vector lambda;
@@ -29,8 +33,8 @@ struct BoxSolution {
 };
 
 /// A barrier method (program::Barrier), one dense Cholesky factorisation an iteration: their number hardly depends on the
-/// program, so it is where active-set iterations go that do not come to rest. `tol`: on the residuals and the gap, with
-/// the diagonal of H and the greatest of g scaled to 1.
+/// program, so it is where active-set iterations go that do not come to rest. `tol`: on the residuals and the gap, in the
+/// program's units.
 BoxSolution solve_by_barrier(const BoxProgram& program, double tol);
 
 }  // namespace dotyk::solver

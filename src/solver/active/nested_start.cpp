@@ -15,8 +15,8 @@ constexpr double kPreciseStart = 1e-7;
 
 class ChainedRows {
  public:
-  ChainedRows(const Problem& problem, const problem::CondensedProblem& condensed, const Vector& rho)
-      : problem_(problem), rho_(rho), condensed_(condensed), group_(problem.group_of_rows()), stands_for_(problem.rows(), 1), pieces_(problem.rows(), Piece::between) {}
+  ChainedRows(const Problem& problem, const problem::CondensedProblem& condensed, const problem::Measure& measure, const Vector& rho)
+      : problem_(problem), measure_(measure), rho_(rho), condensed_(condensed), group_(problem.group_of_rows()), stands_for_(problem.rows(), 1), pieces_(problem.rows(), Piece::between) {}
 
   /// From every `widest`-th row on.
   NestedStart run(int widest, Step& step) {
@@ -79,7 +79,7 @@ class ChainedRows {
     return std::isfinite(high) && l.value[row] >= stands_for_[row] * (std::isfinite(low) ? (low + high) / 2 : high) ? Piece::greatest : Piece::least;
   }
 
-  void measure(const Vector& lambda) { force_ = std::max(lambda.lpNorm<Eigen::Infinity>(), 1e-300); }
+  void size(const Vector& lambda) { force_ = std::max(lambda.lpNorm<Eigen::Infinity>(), 1e-300); }
 
   /// Active sets until they repeat; false where they do not.
   bool iterate(Step& step, Linearisation& l, Vector& x) {
@@ -87,7 +87,7 @@ class ChainedRows {
       Vector lambda;
       if (!step.solve(l, lambda, x)) return false;
       ++solves_;
-      measure(lambda);
+      size(lambda);
       Linearisation next(problem_.rows());
       for (int r = 0; r < problem_.rows(); ++r) set(next, r, lambda[r] + rho_[r] * x[r]);
       std::swap(l, next);
@@ -101,14 +101,14 @@ class ChainedRows {
     for (int r = 0; r < problem_.rows(); ++r)
       if (stands_for_[r] > 0) rows.push_back(r);
     if (static_cast<int>(rows.size()) > kMostByBarrier) return false;
-    const BoxSolution s = solve_by_barrier(box_program(problem_, condensed_, rows, stands_for_), kPreciseStart);
+    const BoxSolution s = solve_by_barrier(box_program(problem_, condensed_, measure_, rows, stands_for_), kPreciseStart);
     solves_ += s.iterations;
     if (!s.converged) return false;
     Vector lambda = Vector::Zero(problem_.rows());
     lambda(rows) = s.lambda;
     for (std::size_t k = 0; k < rows.size(); ++k)
       pieces_[rows[k]] = s.side[k] < 0 ? Piece::least : s.side[k] > 0 ? Piece::greatest : Piece::between;
-    measure(lambda);
+    size(lambda);
     x = condensed_.jump(lambda, s.alpha);
     l = begin();
     return true;
@@ -135,6 +135,7 @@ class ChainedRows {
   }
 
   const Problem& problem_;
+  const problem::Measure& measure_;
   const Vector& rho_;
   const problem::CondensedProblem& condensed_;
   const std::vector<const problem::RowGroup*> group_;  ///< of a row
@@ -146,13 +147,14 @@ class ChainedRows {
 
 }  // namespace
 
-std::optional<NestedStart> nested_start(const Problem& problem, const problem::CondensedProblem& condensed, const Vector& rho, Step& step) {
+std::optional<NestedStart> nested_start(const Problem& problem, const problem::CondensedProblem& condensed, const problem::Measure& measure,
+                                        const Vector& rho, Step& step) {
   std::size_t longest = 0;
   for (const auto& chain : problem.chains) longest = std::max(longest, chain.size());
   int widest = 1;
   while (longest / (2 * widest) >= kFewest) widest *= 2;
   if (widest == 1) return std::nullopt;
-  return ChainedRows(problem, condensed, rho).run(widest, step);
+  return ChainedRows(problem, condensed, measure, rho).run(widest, step);
 }
 
 }  // namespace dotyk::solver

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "problem/measure.hpp"
 #include "solver/active/step.hpp"
 
 namespace dotyk::solver {
@@ -15,7 +16,7 @@ struct NestedStart {
   int solves = 0;  ///< on `step`, a problem of all rows, and steps of the barrier method
 };
 /// Nothing where no chain is long enough.
-std::optional<NestedStart> nested_start(const problem::Problem& problem, const problem::CondensedProblem& condensed, const algebra::Vector& rho,
-                                        Step& step);
+std::optional<NestedStart> nested_start(const problem::Problem& problem, const problem::CondensedProblem& condensed, const problem::Measure& measure,
+                                        const algebra::Vector& rho, Step& step);
 
 }  // namespace dotyk::solver

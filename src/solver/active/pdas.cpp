@@ -22,7 +22,7 @@ constexpr std::array<Rescue, 3> kRescues{by_sweeps, by_barrier, by_interior_poin
 std::string begin(SetIteration& it) {
   const bool given = it.begins_somewhere();
   if (it.settings.reduced && !it.screws && !given) {
-    const auto nested = nested_start(it.problem, it.condensed(), it.rho, *it.step);
+    const auto nested = nested_start(it.problem, it.condensed(), it.measure, it.rho, *it.step);
     if (!nested) return "";
     it.l = it.held(nested->linearisation, -it.problem.c);
     return text(", begun with ", nested->solves, " solves on a part of the rows");

@@ -55,7 +55,7 @@ std::string by_barrier(SetIteration& it, End) {
   it.monitor.phase("the active sets do not come to rest: a barrier method on the rows");
   std::vector<int> rows(it.problem.rows());
   std::iota(rows.begin(), rows.end(), 0);
-  const BoxSolution s = solve_by_barrier(box_program(it.problem, it.condensed(), rows, std::vector<double>(rows.size(), 1)), kBarrierTol);
+  const BoxSolution s = solve_by_barrier(box_program(it.problem, it.condensed(), it.measure, rows, std::vector<double>(rows.size(), 1)), kBarrierTol);
   if (!s.converged) return "";
   Vector jump = it.condensed().jump(s.lambda, s.alpha);
   for (int r = 0; r < jump.size(); ++r)

@@ -41,8 +41,8 @@ struct Estimate {
   double largest;  ///< bytes of the largest factor
 };
 
-/// Of solid bodies, of which the choice is by factors so far. Bytes of factors are within a sixth of what orderings predict.
-Estimate estimate(const problem::Problem& problem, const Choice& so_far) {
+/// Of solid bodies with so many rows, `near` of which are condensed. Bytes of factors are within a sixth of what orderings predict.
+Estimate estimate(const problem::Problem& problem, double rows_in_all, double near) {
   // Constants measured by scripts/studies/crossing.lua. n: unknowns; m: contact points with d components each. A factor takes 7.5 n² operations in space (order 2:
   // 10 n²) and 80 n^1.5 in the plane (order 2: 130 n^1.5). Frictionless contact adds 3 (dm)³ for dense matrices, or takes a factor a step. Ordering grows with n.
   constexpr double kFlops = 1.25e10, kFriction = 1.5;
@@ -52,8 +52,7 @@ Estimate estimate(const problem::Problem& problem, const Choice& so_far) {
   const bool quadratic = std::any_of(problem.blocks.begin(), problem.blocks.end(), [](const problem::Block& b) { return b.coarse.order == 2; });
   double tangential = 0;
   for (const problem::FrictionGroup& group : problem.friction) tangential += group.components * group.points();
-  const double near = so_far.near.empty() ? problem.rows() : static_cast<double>(std::count(so_far.near.begin(), so_far.near.end(), 1));
-  const double n = problem.unknowns(), m = near * (1 - tangential / std::max(problem.rows(), 1)) * !linear;
+  const double n = problem.unknowns(), m = near * (1 - tangential / std::max(rows_in_all, 1.0)) * !linear;
   const double solves = linear ? 0.6 : friction ? 1.6 : 1;               // times as many iterations
   const double several_bodies = problem.blocks.size() > 1 ? 2 : 1;       // times the work of one
   const auto factor_of = [&](double size) { return flops_of_factor(size, space, quadratic); };
@@ -74,10 +73,12 @@ std::string words(const Cost& of) {
   return text(std::ceil(10 * of.seconds) / 10, " s on a core and ", std::ceil(of.bytes * 1e-6), " MB");
 }
 
-/// Takes multigrid where that is the better choice.
-void weigh(const problem::Problem& problem, double memory, const problem::Condenser* kept, Choice& choice) {
+/// Takes multigrid where that is the better choice. `rows`: those that factors are left with.
+void weigh(const problem::Problem& problem, const RowSubset& rows, double memory, const problem::Condenser* kept, Choice& choice) {
   constexpr double kUsual[] = {45, 25}, kShare = 0.4;  // iterations, without and with coarser meshes; of the seconds
-  const Estimate e = estimate(problem, choice);
+  double near = 0;
+  for (int r = 0; r < problem.rows(); ++r) near += rows.kept()[r] && (choice.near.empty() || choice.near[r]);
+  const Estimate e = estimate(problem, rows.count(), near);
   const bool countable = e.largest <= algebra::Cholesky::kMostBytes;
   const bool fit = (kept && kept->holds()) || kBeside * e.factors.bytes <= memory;
   const bool possible = multigrid::available() && tells_springs(problem) && problem.unknowns() >= kLeastBody * std::ssize(problem.blocks);
@@ -132,10 +133,11 @@ Choice by_factors(const problem::Problem& problem, const problem::Condenser* kep
 
 Choice choose(const problem::Problem& problem, double memory, const problem::Condenser* kept) {
   Choice choice = by_factors(problem, kept);
+  const RowSubset rows = kept ? RowSubset(problem) : TurnedNodes(problem);
   const auto solid = [](const problem::Block& block) { return block.rigid && block.coarse.dimension > 0; };
   if (problem.unknowns() >= kLarge && problem.subdomains.empty() && std::ranges::all_of(problem.blocks, solid))
-    weigh(problem, memory, kept, choice);
-  choice.turned = !kept && choice.by != By::multigrid && !TurnedNodes(problem).none();
+    weigh(problem, rows, memory, kept, choice);
+  choice.turned = choice.by != By::multigrid && !rows.all();
   return choice;
 }
 
