@@ -9,6 +9,9 @@ using algebra::DenseMatrix;
 using algebra::Vector;
 using problem::CondensedProblem;
 
+/// W_rr of a row is about 1/ρ, or more. One below this part of it is on what the generalised inverse fixes.
+constexpr double kFixed = 1e-8;
+
 class ReducedStep final : public Step {
  public:
   ReducedStep(const CondensedProblem& condensed, const Vector& rho)
@@ -27,16 +30,23 @@ class ReducedStep final : public Step {
       // (W + C)_AA λ_A − N_A α = (x₀ − W λ_I)_A − offset,  N_Aᵀ λ_A = e − N_Iᵀ λ_I
       const int n = static_cast<int>(active.size());
       DenseMatrix H = condensed_.W()(active, active);
-      const DenseMatrix N = condensed_.N()(active, Eigen::all);
-      Vector g = condensed_.jump(lambda, Vector())(active);
+      DenseMatrix N = condensed_.N()(active, Eigen::all);
+      Vector g = condensed_.jump(lambda, Vector())(active), unit(n);  // of multipliers: a diagonal of 1, since compliances of weak springs are great
       for (int j = 0; j < n; ++j) {
         H(j, j) += l.added_compliance(active[j], rho_[active[j]]);
         g[j] -= l.offset(active[j], rho_[active[j]]);
+        unit[j] = 1 / std::sqrt(std::max(H(j, j), kFixed / rho_[active[j]]));
       }
-      const Vector e = condensed_.e() - condensed_.N().transpose() * lambda;
+      H = unit.asDiagonal() * H * unit.asDiagonal();
+      N = unit.asDiagonal() * N;
+      const Vector length = N.colwise().norm().unaryExpr([](double norm) { return norm > 0 ? 1 / norm : 1.0; });
+      N = N * length.asDiagonal();
+      g = unit.cwiseProduct(g);
+      const Vector e = length.cwiseProduct(condensed_.e() - condensed_.N().transpose() * lambda);
       Vector solved;
       if (!solve_definite(H, N, g, e, solved) && !solve_dependent(H, N, g, e, solved)) return false;
-      lambda(active) = solved;
+      lambda(active) = unit.cwiseProduct(solved);
+      alpha_ = length.cwiseProduct(alpha_);
     }
     lambda_ = lambda;
     x = condensed_.jump(lambda, alpha_);
@@ -50,11 +60,9 @@ class ReducedStep final : public Step {
                       Vector& lambda) {
     DenseMatrix L = H;
     if (!algebra::cholesky(L)) return false;
-    // A pivot this small against the diagonal is a dependent row that rounding let through; a diagonal this small
-    // a row on what the generalised inverse fixes.
-    const double greatest = H.rows() > 0 ? H.diagonal().maxCoeff() : 0;
+    // A pivot this small is a dependent row that rounding let through; a diagonal below 1 a row on what the generalised inverse fixes.
     for (int j = 0; j < L.rows(); ++j)
-      if (!(L(j, j) * L(j, j) >= 1e-13 * H(j, j) && H(j, j) > 1e-14 * greatest)) return false;
+      if (!(L(j, j) * L(j, j) >= 1e-13 && H(j, j) > 0.5)) return false;
     Vector z = g;
     algebra::solve_lower(L, z);
     if (N.cols() > 0) {
@@ -71,24 +79,21 @@ class ReducedStep final : public Step {
     return true;
   }
 
-  /// Dependent active rows (two conditions on one component): the least-norm multipliers,
+  /// Dependent active rows (two conditions on one component): the multipliers of least norm Σ H_jj λ_j²,
   /// if the conditions agree with each other.
   bool solve_dependent(const DenseMatrix& H, const DenseMatrix& N, const Vector& g, const Vector& e,
                        Vector& lambda) {
     const int n = static_cast<int>(H.rows()), k = static_cast<int>(N.cols());
-    // Compliances and rigid motions have different units: bring both blocks to the same scale.
-    const double h = n > 0 ? H.diagonal().maxCoeff() : 1.0;
-    const double s = k > 0 && n > 0 ? h / std::max(N.cwiseAbs().maxCoeff(), 1e-300) : 1.0;
     DenseMatrix A = DenseMatrix::Zero(n + k, n + k);
     A.topLeftCorner(n, n) = H;
-    A.topRightCorner(n, k) = -s * N;
-    A.bottomLeftCorner(k, n) = s * N.transpose();
+    A.topRightCorner(n, k) = -N;
+    A.bottomLeftCorner(k, n) = N.transpose();
     Vector b(n + k);
-    b << g, s * e;
+    b << g, e;
     const Vector y = algebra::MinimumNorm(A, 1e-11).solve(b);
     if (!y.allFinite() || (A * y - b).norm() > 1e-8 * b.norm()) return false;
     lambda = y.head(n);
-    alpha_ = s * y.tail(k);
+    alpha_ = y.tail(k);
     return true;
   }
 
