@@ -79,3 +79,23 @@ for _, name in ipairs(named) do
   local s = solver[name]{}:solve(scene)
   assert(s.converged and math.abs(s.energy - newton.energy) < 1e-8 * newton.energy, name)
 end
+
+-- Two contacts on one part with given friction, which the lower one has though it is open: where both stick their multipliers depend on each
+-- other. Friction is that of one contact with both bounds.
+local function pushed(bounds, steps)
+  local block <const> = dotyk.body{ name = "block", material = dotyk.material{ E = 1000, nu = 0.3 },
+    mesh = dotyk.mesh.rectangle{ from = {0, 0}, to = {2, 1}, cells = {8, 4} } }
+  block:part"top":load{ 0, -5 }
+  block:part"left":load{ 4, 0 }
+  block:part"right":spring{ x = 1 }
+  local scene <const> = dotyk.scene{ block }
+  local ground <const> = { dotyk.rigid.plane{ point = {0, 0}, normal = {0, 1} }, dotyk.rigid.gap{ normal = {0, -1}, gap = 0.1 } }
+  for k, bound in ipairs(bounds) do scene:contact{ block:part"bottom", rigid = ground[k], friction = dotyk.friction.tresca(bound) } end
+  local s <const> = dotyk.solve(scene, { steps = steps })
+  assert(s.converged and s.method == "newton" and not s.reason:find "fixed point", s.reason)
+  return s
+end
+for _, steps in ipairs{ { { load = 1 } }, { { load = 1 }, { load = 1e-9 } } } do
+  local one <const>, two <const> = pushed({ 1.5 }, steps), pushed({ 1, 0.5 }, steps)
+  assert(math.abs(one.energy - two.energy) < 1e-9 * math.abs(pushed({ 1.5 }, { { load = 1 } }).energy), ("%.12g, not %.12g"):format(two.energy, one.energy))
+end

@@ -38,3 +38,27 @@ for dimension = 2, 3 do
     end
   end
 end
+
+-- How soft springs are hides nothing of another body: a block on springs of 1e-14 of its stiffness, and one that stands on the
+-- ground as if it were alone. What bears is closed.
+local soft <const>, stands <const> = block(2, 1e-11), dotyk.body{ name = "stands", material = dotyk.material{ E = 2000, nu = 0.3 },
+  mesh = dotyk.mesh.rectangle{ from = {3, 0}, to = {5, 1}, cells = {4, 2} } }
+stands:part"top":pressure(10)
+stands:part"right":fix()
+local function standing(bodies)
+  local scene <const> = dotyk.scene(bodies)
+  if #bodies > 1 then scene:contact{ soft:part "bottom", rigid = dotyk.rigid.plane{ point = {0, 0}, normal = {0, 1} } } end
+  local contact <const> = scene:contact{ stands:part "bottom", rigid = dotyk.rigid.plane{ point = {4, -0.002}, normal = {0, 1} } }
+  local s <const> = S.pdas{}:solve(scene)
+  is(s.converged, s.reason)
+  return s:contact(contact).nodes
+end
+local alone <const> = standing{ stands }
+local closed = 0
+for k, node in ipairs(standing{ soft, stands }) do
+  is(node.status == alone[k].status and math.abs(node.pressure - alone[k].pressure) < 1e-8 * 10,
+    ("node %d: %s with %.10g for %s with %.10g"):format(k, node.status, node.pressure, alone[k].status, alone[k].pressure))
+  is((node.status == "closed") == (node.pressure > 0), ("node %d: %s with %g"):format(k, node.status, node.pressure))
+  closed = closed + (node.status == "closed" and 1 or 0)
+end
+is(closed > 0 and closed < #alone, "some nodes touch: " .. closed)

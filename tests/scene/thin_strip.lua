@@ -33,3 +33,14 @@ for _, name in ipairs{ "newton", "proximal" } do
 end
 local scene <const>, contact <const> = strip(4, 0.01, 200, "Q1", dotyk.friction.tresca(1))
 rests(scene, contact, nil, weight * 0.01, "given friction")
+
+-- A thin plate on springs at an end, which springs along it hold as well: equilibrium is as near as rounding of its terms allows.
+for _, thickness in ipairs{ 1e-2, 2.5e-3 } do
+  local plate <const> = dotyk.body{ name = "plate", material = dotyk.material{ E = 210e3, nu = 0.09 },
+    mesh = dotyk.mesh.box{ from = {0, 0, 0}, to = {1.3, 0.8, thickness}, cells = {1, 3, 1} } }
+  plate:part"left":spring{ x = 1.3e6, y = 1.3e6, z = 1.3e6 }
+  plate:part"bottom":support{ tangential = dotyk.law.elastic(9e4) }
+  plate:part"top":load{ -0.5, 1.1, -0.1 }
+  local s <const> = dotyk.solve(dotyk.scene{ plate })
+  is(s.converged, ("thickness %g: %s"):format(thickness, s.reason))
+end

@@ -22,6 +22,7 @@ using algebra::Vector;
 /// converges it takes some ten, and few of these.
 constexpr int kNewtonPatience = 40, kMostStuck = 3;
 constexpr double kSingularDerivative = 1e-12;  // least singular value of a derivative that is solved with
+constexpr double kRank = 1e-11, kSolved = 1e-8;  // of a singular one, which is solved where the rows that depend on each other agree
 constexpr double kHoldingSpring = 3e-3;  // δ, against compliances of size 1
 constexpr int kFreeSteps = 5;  // damped little
 constexpr std::size_t kMemory = 5;  // merits that those are compared with
@@ -41,6 +42,7 @@ constexpr int kFromNear = 60;  // iterations of proximal from a solution with po
 /// the bodies where they are: Qᵀv = ê becomes Qᵀv + δ(a − a₀) = ê, a step of the proximal point method,
 /// whose derivative is regular whatever the pieces. The springs are let go when its problem is nearly solved.
 ///
+/// Where rows depend on each other, as two contacts that stick at one node, steps are those of least norm.
 /// Where the derivative is singular for another reason (Coulomb friction with a great coefficient), or
 /// no damped step decreases the merit, steps of the fixed point iteration λ := λ + θ(P(λ + ρx) − λ) take over.
 class NewtonStepper {
@@ -115,8 +117,9 @@ class NewtonStepper {
         lu = Lu(system.matrix);
         least = lu.inverse_norm_reciprocal();
       }
-      if (!(least > kSingularDerivative)) return false;
-      solved = lu.solve(system.right_side);
+      if (least > kSingularDerivative) solved = lu.solve(system.right_side);
+      else solved = algebra::MinimumNorm(system.matrix, kRank).solve(system.right_side);
+      if (!((system.matrix * solved - system.right_side).norm() <= kSolved * system.right_side.norm())) return false;
     }
     solution = it_.map.take(system, solved);
     return solution.finite();

@@ -219,11 +219,11 @@ bool astray(const RowIteration& iteration) {
   return !(iteration.rounding().cwiseProduct(rho).maxCoeff() <= kMost * met);
 }
 
-/// Rounding of the condensed problem may leave the state further from its laws than the method does: more than `allowed`.
+/// Rounding of the condensed problem may leave the state further from its laws and from equilibrium than the method does: more than `allowed`.
 void refine_rounded(const Problem& problem, const CondensedProblem& condensed, double allowed, Result& result) {
-  if (!result.converged || problem.blocks.empty() || problem::distance_from_laws(problem, result.state) <= allowed) return;
+  if (!result.converged || problem.blocks.empty()) return;
   problem::Residual r = problem::residual(problem, result.state);
-  if (refine(problem, condensed, result.state, r)) result.reason += "; refined from the displacements";
+  if (std::max(r.laws(), r.equilibrium) > allowed && refine(problem, condensed, result.state, r)) result.reason += "; refined from the displacements";
 }
 
 }  // namespace
