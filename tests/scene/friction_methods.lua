@@ -95,7 +95,7 @@ local function pushed(bounds, steps)
   assert(s.converged and s.method == "newton" and not s.reason:find "fixed point", s.reason)
   return s
 end
-for _, steps in ipairs{ { { load = 1 } }, { { load = 1 }, { load = 1e-9 } } } do
+for _, steps in ipairs{ { { load = 1 } }, { { load = 1 }, { load = 0.3 } } } do
   local one <const>, two <const> = pushed({ 1.5 }, steps), pushed({ 1, 0.5 }, steps)
   assert(math.abs(one.energy - two.energy) < 1e-9 * math.abs(pushed({ 1.5 }, { { load = 1 } }).energy), ("%.12g, not %.12g"):format(two.energy, one.energy))
 end

@@ -22,7 +22,7 @@ using algebra::Vector;
 /// converges it takes some ten, and few of these.
 constexpr int kNewtonPatience = 40, kMostStuck = 3;
 constexpr double kSingularDerivative = 1e-12;  // least singular value of a derivative that is solved with
-constexpr double kRank = 1e-11, kSolved = 1e-8;  // of a singular one, which is solved where the rows that depend on each other agree
+constexpr double kRank = 1e-11, kAgree = 1e-8;  // of a singular one: what its rank is told by, and how far its equations agree
 constexpr double kHoldingSpring = 3e-3;  // δ, against compliances of size 1
 constexpr int kFreeSteps = 5;  // damped little
 constexpr std::size_t kMemory = 5;  // merits that those are compared with
@@ -99,29 +99,34 @@ class NewtonStepper {
     return std::hypot(v.scaled_norm, (v.unbalanced - kHoldingSpring * (it_.map.scaled_alpha(it_.alpha()) - anchor_)).norm());
   }
 
+  /// By LU; where the matrix is singular and the equations agree, the solution of least norm.
+  std::optional<Vector> solved(const NaturalMap::System& system) {
+    const Lu lu(system.matrix);
+    singular_value_ = std::min(singular_value_, lu.inverse_norm_reciprocal());
+    const bool regular = lu.inverse_norm_reciprocal() > kSingularDerivative;
+    Vector solution = regular ? lu.solve(system.right_side) : algebra::MinimumNorm(system.matrix, kRank).solve(system.right_side);
+    if (regular || (system.matrix * solution - system.right_side).norm() <= kAgree * system.right_side.norm()) return solution;
+    return std::nullopt;
+  }
+
   bool linear_solve(const NaturalMap::Value& v, Iterate& solution) {
     NaturalMap::System system = it_.map.linearise(v);
     singular_value_ = 1;
-    Vector solved(0);
+    std::optional<Vector> found = Vector(0);
     if (system.matrix.size() > 0) {
-      Lu lu(system.matrix);
-      double least = singular_value_ = lu.inverse_norm_reciprocal();
+      if (held()) system.hold(kHoldingSpring, anchor_);
+      found = solved(system);
       if (watch_) singular_value_ = algebra::smallest_singular_value(system.matrix);
-      if (!(least > kSingularDerivative) && !held() && it_.alpha().size() > 0) {
+      if (!found && !held() && it_.alpha().size() > 0) {
         anchor_ = it_.map.scaled_alpha(it_.alpha());
         merits_.clear();
-      }
-      if (held()) {
-        ++held_;
         system.hold(kHoldingSpring, anchor_);
-        lu = Lu(system.matrix);
-        least = lu.inverse_norm_reciprocal();
+        found = solved(system);
       }
-      if (least > kSingularDerivative) solved = lu.solve(system.right_side);
-      else solved = algebra::MinimumNorm(system.matrix, kRank).solve(system.right_side);
-      if (!((system.matrix * solved - system.right_side).norm() <= kSolved * system.right_side.norm())) return false;
+      held_ += held();
+      if (!found) return false;
     }
-    solution = it_.map.take(system, solved);
+    solution = it_.map.take(system, *found);
     return solution.finite();
   }
 
