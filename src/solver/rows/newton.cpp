@@ -42,9 +42,9 @@ constexpr int kFromNear = 60;  // iterations of proximal from a solution with po
 /// the bodies where they are: Qᵀv = ê becomes Qᵀv + δ(a − a₀) = ê, a step of the proximal point method,
 /// whose derivative is regular whatever the pieces. The springs are let go when its problem is nearly solved.
 ///
-/// Where rows depend on each other, as two contacts that stick at one node, steps are those of least norm.
-/// Where the derivative is singular for another reason (Coulomb friction with a great coefficient), or
-/// no damped step decreases the merit, steps of the fixed point iteration λ := λ + θ(P(λ + ρx) − λ) take over.
+/// Where the derivative is singular for another reason (two contacts that stick at one node, Coulomb friction with a great
+/// coefficient), the step is the shortest of those that leave least of the equations. Where no damped step decreases the
+/// merit, steps of the fixed point iteration λ := λ + θ(P(λ + ρx) − λ) take over.
 class NewtonStepper {
  public:
   NewtonStepper(RowIteration& iteration, bool watch) : it_(iteration), watch_(watch) {}
@@ -60,20 +60,16 @@ class NewtonStepper {
   void step() {
     if (held() && merit() < 0.1 * it_.value().unbalanced.norm()) let_go();
     Iterate solution;
-    if (!linear_solve(it_.value(), solution)) {
-      ++singular_;
-      fixed_point_steps();
-    } else if (!damped_step_to(solution)) {
-      ++stuck_;
-      fixed_point_steps();
-    }
+    if (linear_solve(it_.value(), solution) && damped_step_to(solution)) return;
+    ++stuck_;
+    fixed_point_steps();
   }
 
   /// Of the last step's derivative G: exact when watched, else 1/‖G⁻¹‖₁ as estimated from its factors. 1, that
   /// of the identity, where everything is open.
   double singular_value() const { return singular_value_; }
   /// Rounds of the fixed point iteration.
-  int stuck() const { return singular_ + stuck_; }
+  int stuck() const { return stuck_; }
 
   /// Remarks what had to be done beyond Newton steps.
   void remark() const {
@@ -81,7 +77,6 @@ class NewtonStepper {
       if (count > 0) it_.remark(text(count, count == 1 ? " step " : " steps ", what));
     };
     say(held_, "held the bodies by springs, where slip or gaps left them free and the derivative singular");
-    say(singular_, "of the fixed point iteration instead of a singular derivative");
     say(stuck_, "of the fixed point iteration where no Newton step came nearer");
   }
 
@@ -99,33 +94,32 @@ class NewtonStepper {
     return std::hypot(v.scaled_norm, (v.unbalanced - kHoldingSpring * (it_.map.scaled_alpha(it_.alpha()) - anchor_)).norm());
   }
 
-  /// By LU; where the matrix is singular and the equations agree, the solution of least norm.
+  /// By LU; where the matrix is singular by least squares. Nothing where a motion is free that springs are to hold first.
   std::optional<Vector> solved(const NaturalMap::System& system) {
+    if (system.matrix.size() == 0) return Vector(0);
     const Lu lu(system.matrix);
-    singular_value_ = std::min(singular_value_, lu.inverse_norm_reciprocal());
-    const bool regular = lu.inverse_norm_reciprocal() > kSingularDerivative;
-    Vector solution = regular ? lu.solve(system.right_side) : algebra::MinimumNorm(system.matrix, kRank).solve(system.right_side);
-    if (regular || (system.matrix * solution - system.right_side).norm() <= kAgree * system.right_side.norm()) return solution;
-    return std::nullopt;
+    const double least = lu.inverse_norm_reciprocal();
+    if (!watch_) singular_value_ = least;
+    if (least > kSingularDerivative) return lu.solve(system.right_side);
+    Vector solution = algebra::MinimumNorm(system.matrix, kRank).solve(system.right_side);
+    const double left = (system.matrix * solution - system.right_side).norm();
+    if (!held() && it_.alpha().size() > 0 && !(left <= kAgree * system.right_side.norm())) return std::nullopt;
+    return solution;
   }
 
   bool linear_solve(const NaturalMap::Value& v, Iterate& solution) {
     NaturalMap::System system = it_.map.linearise(v);
     singular_value_ = 1;
-    std::optional<Vector> found = Vector(0);
-    if (system.matrix.size() > 0) {
-      if (held()) system.hold(kHoldingSpring, anchor_);
+    if (watch_ && system.matrix.size() > 0) singular_value_ = algebra::smallest_singular_value(system.matrix);
+    if (held()) system.hold(kHoldingSpring, anchor_);
+    std::optional<Vector> found = solved(system);
+    if (!found) {
+      anchor_ = it_.map.scaled_alpha(it_.alpha());
+      merits_.clear();
+      system.hold(kHoldingSpring, anchor_);
       found = solved(system);
-      if (watch_) singular_value_ = algebra::smallest_singular_value(system.matrix);
-      if (!found && !held() && it_.alpha().size() > 0) {
-        anchor_ = it_.map.scaled_alpha(it_.alpha());
-        merits_.clear();
-        system.hold(kHoldingSpring, anchor_);
-        found = solved(system);
-      }
-      held_ += held();
-      if (!found) return false;
     }
+    held_ += held();
     solution = it_.map.take(system, *found);
     return solution.finite();
   }
@@ -162,7 +156,7 @@ class NewtonStepper {
   double singular_value_ = 1;
   std::vector<double> merits_;  ///< the last few
   Vector anchor_;               ///< a₀ of the springs; empty: none
-  int held_ = 0, singular_ = 0, stuck_ = 0;
+  int held_ = 0, stuck_ = 0;
 };
 
 /// Moves to random multipliers and rigid motions, in a box sized by those of the iterate.
