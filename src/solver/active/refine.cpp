@@ -21,34 +21,47 @@ Vector out_of_balance(const Problem& problem, const State& state) {
 
 namespace {
 
+/// The natural map about a state: at λ of the state and α = 0 it is that of the state's own displacements.
+struct About {
+  About(const Problem& problem, const CondensedProblem& condensed, const State& state)
+      : at{state.lambda, Vector::Zero(condensed.kernel_size())}, centred(condensed.centred(problem, at.lambda, at.alpha, state.u.here())),
+        map(problem, centred, problem::Measure(problem, condensed).stiffness()) {}
+  Iterate at;
+  CondensedProblem centred;
+  NaturalMap map;
+};
+
 /// Newton's step from this state; nothing where the derivative is singular.
 std::optional<State> step(const Problem& problem, const CondensedProblem& condensed, const State& from) {
-  const Vector balanced = from.u.here() + condensed.response(out_of_balance(problem, from), Vector::Zero(condensed.kernel_size()));
-  const Iterate at{from.lambda, Vector::Zero(condensed.kernel_size())};
-  const CondensedProblem centred = condensed.centred(problem, at.lambda, at.alpha, balanced);
-  const NaturalMap map(problem, centred, problem::Measure(problem, condensed).stiffness());
-  const Iterate next = map.solve(map.linearise(map.at(at)));
+  const State balanced{from.u.here() + condensed.response(out_of_balance(problem, from), Vector::Zero(condensed.kernel_size())), from.lambda};
+  const About about(problem, condensed, balanced);
+  const Iterate next = about.map.solve(about.map.linearise(about.map.at(about.at)));
   if (!next.finite()) return std::nullopt;
-  State to{balanced + condensed.response(problem.B.transpose() * (from.lambda - next.lambda), next.alpha), next.lambda};
+  State to{balanced.u.here() + condensed.response(problem.B.transpose() * (from.lambda - next.lambda), next.alpha), next.lambda};
   return to.u.here().allFinite() && to.lambda.allFinite() ? std::optional(std::move(to)) : std::nullopt;
 }
 
 }  // namespace
 
-bool refine(const Problem& problem, const CondensedProblem& condensed, State& state, problem::Residual& at) {
+bool refine(const Problem& problem, const CondensedProblem& condensed, Result& result, problem::Residual& at) {
   constexpr int kSteps = 3;
   const auto off = [](const problem::Residual& r) { return std::max(r.laws(), r.equilibrium); };
   bool better = false;
   for (int k = 0; k < kSteps; ++k) {
-    std::optional<State> next = step(problem, condensed, state);
+    std::optional<State> next = step(problem, condensed, result.state);
     if (!next) break;
     const double before = off(at);
     const problem::Residual there = problem::residual(problem, *next);
     if (!(off(there) < before)) break;
-    state = std::move(*next), at = there, better = true;
+    result.state = std::move(*next), at = there, better = true;
     if (off(at) > 0.1 * before) break;
   }
-  return better;
+  if (!better) return false;
+  const About about(problem, condensed, result.state);
+  NaturalMap::Value pieces = about.map.at(about.at);
+  result.active_sets.push_back(std::move(pieces.closed));
+  result.slipping = std::move(pieces.slipping);
+  return true;
 }
 
 std::optional<Result> on_all_unknowns(const Problem& problem, const Settings& settings, const std::vector<char>& active, double laws, Monitor& monitor) {

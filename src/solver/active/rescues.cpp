@@ -120,7 +120,7 @@ void confirm_laws(SetIteration& it) {
   Result& result = it.result;
   if (!it.is_condensed() && problem::distance_from_laws(it.problem, result.state) <= result.noise) return;
   problem::Residual r = problem::residual(it.problem, result.state);
-  if (it.is_condensed() && std::max(r.laws(), r.equilibrium) > result.noise) refine(it.problem, it.condensed(), result.state, r);
+  if (it.is_condensed() && std::max(r.laws(), r.equilibrium) > kRounded) refine(it.problem, it.condensed(), result, r);
   const double laws = r.laws();
   if (!(laws > result.noise)) return;
   if (it.is_condensed() && go_on_on_all_unknowns(it.problem, it.settings, result, it.monitor)) return;

@@ -15,6 +15,7 @@
 namespace dotyk::solver {
 namespace {
 
+using algebra::DenseMatrix;
 using algebra::Lu;
 using algebra::Vector;
 
@@ -22,7 +23,7 @@ using algebra::Vector;
 /// converges it takes some ten, and few of these.
 constexpr int kNewtonPatience = 40, kMostStuck = 3;
 constexpr double kSingularDerivative = 1e-12;  // least singular value of a derivative that is solved with
-constexpr double kRank = 1e-11, kAgree = 1e-8;  // of a singular one: what its rank is told by, and how far its equations agree
+constexpr double kAboveRounding = 10, kAgree = 1e-4;  // of a singular one: its regularisation, and how far its equations agree
 constexpr double kHoldingSpring = 3e-3;  // δ, against compliances of size 1
 constexpr int kFreeSteps = 5;  // damped little
 constexpr std::size_t kMemory = 5;  // merits that those are compared with
@@ -31,6 +32,18 @@ constexpr int kFixedPointSteps = 20;  // the first time; twice as many each furt
 constexpr int kDoublings = 6;
 constexpr int kSearchSteps = 12;  // from the point of a programme
 constexpr int kFromNear = 60;  // iterations of proximal from a solution with polygons for discs of friction
+
+/// By normal equations with a multiple of the identity above their rounding: a step's directions are known to a part of 1e-3 where singular
+/// values are 1e-5, which Newton steps put right, for the work of some LU factorisations.
+Vector least_squares(const NaturalMap::System& system) {
+  DenseMatrix normal = algebra::gram(system.matrix);
+  normal.diagonal().array() += kAboveRounding * static_cast<double>(normal.rows()) * std::numeric_limits<double>::epsilon() * normal.diagonal().maxCoeff();
+  Vector solution = system.matrix.transpose() * system.right_side;
+  if (!algebra::cholesky(normal)) return Vector::Constant(solution.size(), NAN);
+  algebra::solve_lower(normal, solution);
+  algebra::solve_lower_transposed(normal, solution);
+  return solution;
+}
 
 /// Newton steps from one iterate to the next, kept from going astray. The merit of an iterate is the norm of
 /// the natural map in scaled unknowns (natural_map.hpp).
@@ -101,7 +114,7 @@ class NewtonStepper {
     const double least = lu.inverse_norm_reciprocal();
     if (!watch_) singular_value_ = least;
     if (least > kSingularDerivative) return lu.solve(system.right_side);
-    Vector solution = algebra::MinimumNorm(system.matrix, kRank).solve(system.right_side);
+    const Vector solution = least_squares(system);
     const double left = (system.matrix * solution - system.right_side).norm();
     if (!held() && it_.alpha().size() > 0 && !(left <= kAgree * system.right_side.norm())) return std::nullopt;
     return solution;

@@ -199,8 +199,6 @@ Result RowIteration::finish() {
 
 namespace {
 
-constexpr double kRounded = 1e-9;  // of laws
-
 /// The amounts of rigid motion that come nearest to the state's jumps.
 Vector rigid_motion_of(const problem::State& state, const Problem& problem, const CondensedProblem& condensed) {
   if (condensed.kernel_size() == 0) return Vector(0);
@@ -223,7 +221,7 @@ bool astray(const RowIteration& iteration) {
 void refine_rounded(const Problem& problem, const CondensedProblem& condensed, double allowed, Result& result) {
   if (!result.converged || problem.blocks.empty()) return;
   problem::Residual r = problem::residual(problem, result.state);
-  if (std::max(r.laws(), r.equilibrium) > allowed && refine(problem, condensed, result.state, r)) result.reason += "; refined from the displacements";
+  if (std::max(r.laws(), r.equilibrium) > allowed && refine(problem, condensed, result, r)) result.reason += "; refined from the displacements";
 }
 
 }  // namespace
