@@ -178,7 +178,7 @@ Result run(const QuadraticProgram& p, const InteriorPoint& settings, double far,
       break;
     }
     if (!barrier.step()) {
-      result.reason = "the KKT system could not be factored";
+      if (!diverged(p, barrier, result)) result.reason = "the KKT system could not be factored";
       break;
     }
   }

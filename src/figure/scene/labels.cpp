@@ -172,9 +172,16 @@ Point pressure_tip(const Stage& stage, const ContactNode& node) {
 }
 
 std::vector<std::optional<Label>> peak_labels(const Stage& stage, bool within_frame) {
+  constexpr std::size_t most = 24;  // of contacts: more labels than that are not read
+  const std::vector<ContactPicture>& contacts = stage.picture.contacts;
+  const auto greatest = [](const ContactPicture* c) { return c->nodes.empty() ? 0 : std::ranges::max(c->nodes, {}, &ContactNode::pressure).pressure; };
+  std::vector<const ContactPicture*> told;
+  for (const ContactPicture& contact : contacts) told.push_back(&contact);
+  std::ranges::stable_sort(told, std::ranges::greater{}, greatest);
+  told.resize(std::min(told.size(), most));
   const Barriers barriers(stage);
-  std::vector<std::optional<Label>> labels;
-  for (const ContactPicture& contact : stage.picture.contacts) labels.push_back(peak_label(stage, barriers, contact, within_frame));
+  std::vector<std::optional<Label>> labels(contacts.size());
+  for (const ContactPicture* contact : told) labels[static_cast<std::size_t>(contact - contacts.data())] = peak_label(stage, barriers, *contact, within_frame);
   return labels;
 }
 

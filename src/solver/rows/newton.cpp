@@ -23,7 +23,7 @@ using algebra::Vector;
 /// converges it takes some ten, and few of these.
 constexpr int kNewtonPatience = 40, kMostStuck = 3;
 constexpr double kSingularDerivative = 1e-12;  // least singular value of a derivative that is solved with
-constexpr double kAboveRounding = 10, kAgree = 1e-4;  // of a singular one: its regularisation, and how far its equations agree
+constexpr double kAboveRounding = 10;  // what regularises a singular one
 constexpr double kHoldingSpring = 3e-3;  // δ, against compliances of size 1
 constexpr int kFreeSteps = 5;  // damped little
 constexpr std::size_t kMemory = 5;  // merits that those are compared with
@@ -107,33 +107,27 @@ class NewtonStepper {
     return std::hypot(v.scaled_norm, (v.unbalanced - kHoldingSpring * (it_.map.scaled_alpha(it_.alpha()) - anchor_)).norm());
   }
 
-  /// By LU; where the matrix is singular by least squares. Nothing where a motion is free that springs are to hold first.
-  std::optional<Vector> solved(const NaturalMap::System& system) {
-    if (system.matrix.size() == 0) return Vector(0);
-    const Lu lu(system.matrix);
-    const double least = lu.inverse_norm_reciprocal();
-    if (!watch_) singular_value_ = least;
-    if (least > kSingularDerivative) return lu.solve(system.right_side);
-    const Vector solution = least_squares(system);
-    const double left = (system.matrix * solution - system.right_side).norm();
-    if (!held() && it_.alpha().size() > 0 && !(left <= kAgree * system.right_side.norm())) return std::nullopt;
-    return solution;
-  }
-
   bool linear_solve(const NaturalMap::Value& v, Iterate& solution) {
     NaturalMap::System system = it_.map.linearise(v);
     singular_value_ = 1;
-    if (watch_ && system.matrix.size() > 0) singular_value_ = algebra::smallest_singular_value(system.matrix);
-    if (held()) system.hold(kHoldingSpring, anchor_);
-    std::optional<Vector> found = solved(system);
-    if (!found) {
-      anchor_ = it_.map.scaled_alpha(it_.alpha());
-      merits_.clear();
-      system.hold(kHoldingSpring, anchor_);
-      found = solved(system);
+    Vector found(0);
+    if (system.matrix.size() > 0) {
+      Lu lu(system.matrix);
+      double least = lu.inverse_norm_reciprocal();
+      singular_value_ = watch_ ? algebra::smallest_singular_value(system.matrix) : least;
+      if (!(least > kSingularDerivative) && !held() && it_.alpha().size() > 0) {
+        anchor_ = it_.map.scaled_alpha(it_.alpha());
+        merits_.clear();
+      }
+      if (held()) {
+        ++held_;
+        system.hold(kHoldingSpring, anchor_);
+        lu = Lu(system.matrix);
+        least = lu.inverse_norm_reciprocal();
+      }
+      found = least > kSingularDerivative ? lu.solve(system.right_side) : least_squares(system);
     }
-    held_ += held();
-    solution = it_.map.take(system, *found);
+    solution = it_.map.take(system, found);
     return solution.finite();
   }
 
