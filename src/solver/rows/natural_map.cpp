@@ -165,4 +165,22 @@ Iterate NaturalMap::take(const System& system, const Vector& solved) const {
   return to;
 }
 
+Vector NaturalMap::solved(const System& system, const algebra::Lu& lu) {
+  constexpr int kCorrections = 2;
+  constexpr double kAboveRounding = 10;
+  if (!singular(lu)) return lu.solve(system.right_side);
+  const DenseMatrix& G = system.matrix;
+  DenseMatrix normal = algebra::gram(G);
+  normal.diagonal().array() += kAboveRounding * static_cast<double>(G.rows()) * std::numeric_limits<double>::epsilon() * normal.diagonal().maxCoeff();
+  Vector solution = Vector::Zero(G.rows());
+  if (!algebra::cholesky(normal)) return Vector::Constant(G.rows(), NAN);
+  for (int k = 0; k <= kCorrections; ++k) {
+    Vector step = G.transpose() * (system.right_side - G * solution);
+    algebra::solve_lower(normal, step);
+    algebra::solve_lower_transposed(normal, step);
+    solution += step;
+  }
+  return solution;
+}
+
 }  // namespace dotyk::solver

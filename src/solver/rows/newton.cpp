@@ -15,15 +15,12 @@
 namespace dotyk::solver {
 namespace {
 
-using algebra::DenseMatrix;
 using algebra::Lu;
 using algebra::Vector;
 
 /// Newton's method has lost its way after so many iterations, or rounds of the fixed point iteration in their place: where it
 /// converges it takes some ten, and few of these.
 constexpr int kNewtonPatience = 40, kMostStuck = 3;
-constexpr double kSingularDerivative = 1e-12;  // least singular value of a derivative that is solved with
-constexpr double kAboveRounding = 10;  // what regularises a singular one
 constexpr double kHoldingSpring = 3e-3;  // δ, against compliances of size 1
 constexpr int kFreeSteps = 5;  // damped little
 constexpr std::size_t kMemory = 5;  // merits that those are compared with
@@ -32,18 +29,6 @@ constexpr int kFixedPointSteps = 20;  // the first time; twice as many each furt
 constexpr int kDoublings = 6;
 constexpr int kSearchSteps = 12;  // from the point of a programme
 constexpr int kFromNear = 60;  // iterations of proximal from a solution with polygons for discs of friction
-
-/// By normal equations with a multiple of the identity above their rounding: a step's directions are known to a part of 1e-3 where singular
-/// values are 1e-5, which Newton steps put right, for the work of some LU factorisations.
-Vector least_squares(const NaturalMap::System& system) {
-  DenseMatrix normal = algebra::gram(system.matrix);
-  normal.diagonal().array() += kAboveRounding * static_cast<double>(normal.rows()) * std::numeric_limits<double>::epsilon() * normal.diagonal().maxCoeff();
-  Vector solution = system.matrix.transpose() * system.right_side;
-  if (!algebra::cholesky(normal)) return Vector::Constant(solution.size(), NAN);
-  algebra::solve_lower(normal, solution);
-  algebra::solve_lower_transposed(normal, solution);
-  return solution;
-}
 
 /// Newton steps from one iterate to the next, kept from going astray. The merit of an iterate is the norm of
 /// the natural map in scaled unknowns (natural_map.hpp).
@@ -113,9 +98,8 @@ class NewtonStepper {
     Vector found(0);
     if (system.matrix.size() > 0) {
       Lu lu(system.matrix);
-      double least = lu.inverse_norm_reciprocal();
-      singular_value_ = watch_ ? algebra::smallest_singular_value(system.matrix) : least;
-      if (!(least > kSingularDerivative) && !held() && it_.alpha().size() > 0) {
+      singular_value_ = watch_ ? algebra::smallest_singular_value(system.matrix) : lu.inverse_norm_reciprocal();
+      if (NaturalMap::singular(lu) && !held() && it_.alpha().size() > 0) {
         anchor_ = it_.map.scaled_alpha(it_.alpha());
         merits_.clear();
       }
@@ -123,9 +107,8 @@ class NewtonStepper {
         ++held_;
         system.hold(kHoldingSpring, anchor_);
         lu = Lu(system.matrix);
-        least = lu.inverse_norm_reciprocal();
       }
-      found = least > kSingularDerivative ? lu.solve(system.right_side) : least_squares(system);
+      found = NaturalMap::solved(system, lu);
     }
     solution = it_.map.take(system, found);
     return solution.finite();
