@@ -105,7 +105,7 @@ std::optional<Scaled> scale_by_curvature(const QuadraticProgram& p) {
 }
 
 double imbalance(const QuadraticProgram& program, const Vector& x, const Vector& y, Rounding nothing) {
-  constexpr double kRounding = 1e-15, kDriven = 1e-3;
+  constexpr double kRounding = 1e-15, kUndriven = 1e-9, kDriven = 1e-3;
   const auto scaled = scale_by_curvature(program);
   if (!scaled) return 0;
   const QuadraticProgram& p = scaled->program;
@@ -116,7 +116,7 @@ double imbalance(const QuadraticProgram& program, const Vector& x, const Vector&
   const Vector moved = sizes * terms, moved_by_own = sizes * own;
   const double greatest = peak(terms);
   const auto share = [&](double left, double of, bool driven = false) {
-    return left > kRounding * (driven || nothing == Rounding::own ? of : greatest) ? left / of : 0;
+    return left > (driven || nothing == Rounding::own ? kRounding * of : kUndriven * greatest) ? left / of : 0;
   };
   double worst = 0;
   Vector apart = v.cwiseAbs();
