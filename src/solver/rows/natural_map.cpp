@@ -168,7 +168,7 @@ Iterate NaturalMap::take(const System& system, const Vector& solved) const {
 Vector NaturalMap::solved(const System& system, const algebra::Lu& lu) {
   constexpr int kCorrections = 2;
   constexpr double kAboveRounding = 10;
-  if (system.right_side.size() == 0 || !singular(lu)) return lu.solve(system.right_side);
+  if (!singular(lu)) return lu.solve(system.right_side);
   const DenseMatrix& G = system.matrix;
   DenseMatrix normal = algebra::gram(G);
   normal.diagonal().array() += kAboveRounding * static_cast<double>(G.rows()) * std::numeric_limits<double>::epsilon() * normal.diagonal().maxCoeff();

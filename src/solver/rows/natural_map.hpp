@@ -73,9 +73,9 @@ class NaturalMap {
     void hold(double spring, const algebra::Vector& anchor);
   };
   System linearise(const Value& v) const;
-  /// (λ', α') of a solution of the system; without one, of that by solved().
+  /// (λ', α') of a solution of the system; without one, of that by LU.
   Iterate take(const System& system, const algebra::Vector& solved) const;
-  Iterate solve(const System& system) const { return take(system, solved(system, algebra::Lu(system.matrix))); }
+  Iterate solve(const System& system) const { return take(system, algebra::Lu(system.matrix).solve(system.right_side)); }
   /// By these factors of the matrix. Where it is singular, as where two contacts stick at one node, by least squares: normal equations with a
   /// multiple of the identity above their rounding, corrected twice, for the work of some LU factorisations.
   static algebra::Vector solved(const System& system, const algebra::Lu& lu);
