@@ -166,21 +166,11 @@ Iterate NaturalMap::take(const System& system, const Vector& solved) const {
 }
 
 Vector NaturalMap::solved(const System& system, const algebra::Lu& lu) {
-  constexpr int kCorrections = 2;
-  constexpr double kAboveRounding = 10;
+  constexpr int kMost = 1500;  // rows: beyond, a step is more work than many of the fixed point iteration
+  constexpr double kRank = 1e-11;
   if (!singular(lu)) return lu.solve(system.right_side);
-  const DenseMatrix& G = system.matrix;
-  DenseMatrix normal = algebra::gram(G);
-  normal.diagonal().array() += kAboveRounding * static_cast<double>(G.rows()) * std::numeric_limits<double>::epsilon() * normal.diagonal().maxCoeff();
-  Vector solution = Vector::Zero(G.rows());
-  if (!algebra::cholesky(normal)) return Vector::Constant(G.rows(), NAN);
-  for (int k = 0; k <= kCorrections; ++k) {
-    Vector step = G.transpose() * (system.right_side - G * solution);
-    algebra::solve_lower(normal, step);
-    algebra::solve_lower_transposed(normal, step);
-    solution += step;
-  }
-  return solution;
+  if (system.matrix.rows() > kMost) return Vector::Constant(system.matrix.rows(), NAN);
+  return algebra::MinimumNorm(system.matrix, kRank).solve(system.right_side);
 }
 
 }  // namespace dotyk::solver

@@ -76,8 +76,8 @@ class NaturalMap {
   /// (λ', α') of a solution of the system; without one, of that by LU.
   Iterate take(const System& system, const algebra::Vector& solved) const;
   Iterate solve(const System& system) const { return take(system, algebra::Lu(system.matrix).solve(system.right_side)); }
-  /// By these factors of the matrix. Where it is singular, as where two contacts stick at one node, by least squares: normal equations with a
-  /// multiple of the identity above their rounding, corrected twice, for the work of some LU factorisations.
+  /// By these factors of the matrix. Where it is singular, as where two contacts stick at one node, the shortest of those that leave least of the equations;
+  /// NaN where that is too much work.
   static algebra::Vector solved(const System& system, const algebra::Lu& lu);
   static bool singular(const algebra::Lu& lu) { return !(lu.inverse_norm_reciprocal() > 1e-12); }
 
