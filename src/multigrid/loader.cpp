@@ -113,5 +113,6 @@ void start_ranks(int ranks) {
 }
 
 bool available() { return !look_for(petsc()).found.empty(); }
+double bytes_to_open() { return is_open ? 0 : petsc().bytes; }
 
 }  // namespace dotyk::multigrid

@@ -67,6 +67,8 @@ std::unique_ptr<algebra::SpdSolver> make_solver(const Matrix& matrix, Monitor& m
 
 /// Whether the library was built. It is not opened for this answer.
 bool available();
+/// Of address space, which opening it takes; 0 once it is open.
+double bytes_to_open();
 
 /// One script, many processes: rank 0 runs it, the others work for its solvers. Which of the processes that mpirun started this is, and how many there are: 0 where it was not mpirun.
 struct RankAmong {

@@ -65,13 +65,14 @@ constexpr double kMostByChords = 0.05;
 /// pressures that differ by 1/200 to 1/35 of k_r chord.
 constexpr double kUneven = 1.0 / 30;
 
-/// The same of what presses. Pressures of single nodes are uncertain by the stiffness of their rows times what their gaps are uneven by.
-void see_chords(const Solution& solution, std::size_t index, std::vector<std::string>& all) {
+/// The same of what presses, or may be open because of a chord. Pressures of single nodes are uncertain by the stiffness of their rows times what
+/// their gaps are uneven by. `x`: −gaps, by row.
+void see_chords(const Solution& solution, const algebra::Vector& x, std::size_t index, std::vector<std::string>& all) {
   const Contact& contact = *solution.scene().contacts[index];
   double greatest = 0, uncertain = 0, chord = 0;
   for (std::size_t i = 0; i < contact.rows.size(); ++i) {
     const int row = solution.model().contact_row[index][i];
-    if (row < 0 || !solution.active(row)) continue;
+    if (row < 0 || !(solution.active(row) || -x[row] < contact.rows[i].chord)) continue;
     const double measure = solution.model().normal[index][i].measure;
     greatest = std::max(greatest, solution.result().state.lambda[row] / measure);
     uncertain = std::max(uncertain, kUneven * solution.measure().stiffness()[row] * contact.rows[i].chord / measure);
@@ -249,8 +250,9 @@ std::vector<std::string> doubts(const Scene& scene) {
 std::vector<std::string> doubts(const Solution& solution) {
   std::vector<std::string> all;
   for (const auto& body : solution.scene().bodies) add_locking(*body, all);
+  const algebra::Vector x = problem::jumps(solution.model().problem, solution.result().state.u);
   for (std::size_t c = 0; c < solution.scene().contacts.size(); ++c) {
-    see_chords(solution, c, all);
+    see_chords(solution, x, c, all);
     see_held(solution, c, all);
     if (solution.result().converged) see_rounding(solution, c, all), see_slide(solution, c, all);
   }

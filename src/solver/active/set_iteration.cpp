@@ -240,9 +240,10 @@ std::optional<End> SetIteration::advance() {
   return repeats(l) ? std::optional(End::cycle) : std::nullopt;
 }
 
-/// ‖λ − P(λ + ρx)‖ beyond rounding, of ‖λ‖.
+/// ‖λ − P(λ + ρx)‖ beyond rounding, of ‖λ‖, or of the least that counts as a force: where a load ends λ may go to 0.
 double SetIteration::off() const {
-  const double force = lambda.norm();
+  double force = lambda.norm();
+  for (std::size_t p = 0; p < static_cast<std::size_t>(measure.parts().count); ++p) force = std::max(force, measure.least_force(p));
   const Vector beyond = problem::distances_from_laws(problem, x, lambda, rho).cwiseAbs() - rounding(lambda, x).force;
   return beyond.cwiseMax(0).norm() / (force > 0 ? force : 1);
 }

@@ -81,7 +81,8 @@ void weigh(const problem::Problem& problem, const RowSubset& rows, double memory
   const Estimate e = estimate(problem, rows.count(), near);
   const bool countable = e.largest <= algebra::Cholesky::kMostBytes;
   const bool fit = (kept && kept->holds()) || kBeside * e.factors.bytes <= memory;
-  const bool possible = multigrid::available() && tells_springs(problem) && problem.unknowns() >= kLeastBody * std::ssize(problem.blocks);
+  const bool possible = multigrid::available() && tells_springs(problem) && problem.unknowns() >= kLeastBody * std::ssize(problem.blocks) &&
+                        multigrid::bytes_to_open() + e.multigrid.bytes <= memory;
   const bool faster = e.factors.seconds > (kept ? kFactorIsKept : kFaster) * e.multigrid.seconds;
   choice.factors_fit = countable && fit;
   if (choice.factors_fit)
