@@ -250,6 +250,29 @@ TEST_CASE("parts of a program, their energies 1e-8 to 1e8 of each other's and th
   CHECK(by_interior_points >= 0.85 * trials);
 }
 
+TEST_CASE("unknowns that nothing drives may be 0") {
+  Random random(311);
+  Monitor quiet;
+  int solved = 0;
+  constexpr int trials = 100;
+  for (int trial = 0; trial < trials; ++trial) {
+    const int n = 2 + random.below(19);
+    Vector q(n), curvature(n);
+    DenseMatrix A = DenseMatrix::Identity(n, n);
+    for (int i = 0; i < n; ++i) {
+      q[i] = random.below(3) - 1, curvature[i] = random.between(1, 10);
+      for (int j = 0; j < n; ++j)
+        if (j != i && random.below(3) == 0) A(i, j) = random.below(3) - 1;
+    }
+    const auto p = test::quadratic(curvature.asDiagonal(), q, A, -Vector::Ones(n), Vector::Ones(n));
+    const auto exact = program::solve(p, test::one(), quiet), interior = program::solve(p, program::InteriorPoint{}, quiet);
+    REQUIRE(exact.status == program::Status::solved);
+    solved += interior.status == program::Status::solved;
+    if (interior.status == program::Status::solved) CHECK((interior.x - exact.x).lpNorm<Eigen::Infinity>() < 1e-6);
+  }
+  CHECK(solved >= trials - 1);
+}
+
 TEST_CASE("a program without rows, and one whose rows never matter") {
   Random random(305);
   Monitor quiet;

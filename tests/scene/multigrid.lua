@@ -259,3 +259,16 @@ check.that(pressed.converged and pressed.multigrid.levels == 4, "levels of a dis
 check.near(pressed.energy, dotyk.solve(dotyk.scene{ disc }).energy, 1e-9 * math.abs(pressed.energy))
 for k = 0, 255 do pressed:displacement(disc, 0.9996 * math.cos(k * math.pi / 128), 0.9996 * math.sin(k * math.pi / 128)) end
 check.error(function() round:transform(function(x, y) return x, y end, "rim") end, "boundary")
+
+-- A load that ends takes all forces with it.
+do
+  local b <const> = body("pressed", box({-2, -1, 0}, {2, 1, 1}, {8, 4, 2}, "Q1"))
+  b:part"top":load({ 0, 0, -10 }, "press")
+  b:part"left":spring{ x = 30, y = 3 }
+  local scene <const> = dotyk.scene{ b }
+  local contact <const> = scene:contact{ b:part"bottom", rigid = dotyk.rigid.plane{ point = {0, 0, 0}, normal = {0, 0, 1} }, friction = dotyk.friction.coulomb(0.3) }
+  local s <const> = S.multigrid{}:solve(scene, { steps = { { load = { press = 1 } }, { load = { press = 0 } } } })
+  check.that(s.converged, s.reason)
+  check.near(s.steps[1]:contact(contact).force[3], 80, 1e-7)
+  check.near(s:contact(contact).force[3], 0, 1e-9)
+end
