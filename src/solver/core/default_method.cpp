@@ -73,7 +73,7 @@ std::string words(const Cost& of) {
   return text(std::ceil(10 * of.seconds) / 10, " s on a core and ", std::ceil(of.bytes * 1e-6), " MB");
 }
 
-/// Takes multigrid where that is the better choice. `rows`: those that factors are left with.
+/// Takes multigrid where it fits with its library and is the better choice. `rows`: those that factors are left with.
 void weigh(const problem::Problem& problem, const RowSubset& rows, double memory, const problem::Condenser* kept, Choice& choice) {
   constexpr double kUsual[] = {45, 25}, kShare = 0.4;  // iterations, without and with coarser meshes; of the seconds
   double near = 0;
