@@ -115,7 +115,7 @@ double RowIteration::lost() const {
 
 /// Goes on about the iterate's displacements, where less is lost to rounding about them than about the last ones.
 void RowIteration::centre() {
-  if (problem.blocks.empty() || !at_.finite() || lost() <= std::max(0.1 * settings_.tol, 2 * lost_)) return;
+  if (problem.blocks.empty() || !at_.finite() || lost() <= std::max(settings_.tol, 2 * lost_)) return;
   if (Vector u = displacements(at_); u.allFinite()) centre(at_, std::move(u));
 }
 
