@@ -33,8 +33,8 @@ std::optional<Scaled> scale_by_curvature(const QuadraticProgram& program);
 
 /// How far (x, y) is from optimal for single unknowns and rows, not beside others. In units of scale_by_curvature() the greatest of: what is left of an
 /// unknown's gradient, multipliers counted by how far their row is from its limit, against the gradient's terms; violations of rows against what their unknowns'
-/// terms move them by. 0 where there are no such units. What counts as nothing: of an unknown that is driven by its own q_j, rounding of its terms; of others,
-/// which may well be 0, 1e-9 of the greatest terms, or rounding of their own, which is the least that can be asked for.
+/// terms move them by. 0 where there are no such units. What is left of an unknown that its own q_j drives counts beyond rounding of its terms. The solution of
+/// other unknowns may be 0: by `of_greatest` what is left of them counts beyond 1e-9 of the greatest terms, by `own` beyond rounding of their own terms.
 enum class Rounding { of_greatest, own };
 double imbalance(const QuadraticProgram& program, const Vector& x, const Vector& y, Rounding nothing = Rounding::of_greatest);
 /// Where the imbalance is more, other units are tried; and where the result is no solution.

@@ -65,8 +65,8 @@ constexpr double kMostByChords = 0.05;
 /// pressures that differ by 1/200 to 1/35 of k_r chord.
 constexpr double kUneven = 1.0 / 30;
 
-/// The same of what presses, or may be open because of a chord. Pressures of single nodes are uncertain by the stiffness of their rows times what
-/// their gaps are uneven by. `x`: −gaps, by row.
+/// The same after a solve, for nodes that press and for those whose gap is smaller than the chord's height. The pressure of a node is uncertain by
+/// the stiffness of its row times the error of its gap. `x`: the negative gap of each row.
 void see_chords(const Solution& solution, const algebra::Vector& x, std::size_t index, std::vector<std::string>& all) {
   const Contact& contact = *solution.scene().contacts[index];
   double greatest = 0, uncertain = 0, chord = 0;

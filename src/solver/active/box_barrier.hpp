@@ -15,8 +15,8 @@ struct BoxProgram {
   algebra::Vector g, low, high;
   algebra::DenseMatrix N;   ///< rows × rigid motions
   algebra::Vector e;
-  algebra::Vector unit;     ///< what counts as a force, by row
-  double energy;            ///< and as an energy
+  algebra::Vector unit;     ///< unit of force of each row
+  double energy;            ///< unit of energy
 };
 
 /// On some rows, each law scaled to stand for so many rows. Of a law with two stiffnesses the mean compliance is taken. Units: of a row
@@ -33,8 +33,8 @@ struct BoxSolution {
 };
 
 /// A barrier method (program::Barrier), one dense Cholesky factorisation an iteration: their number hardly depends on the
-/// program, so it is where active-set iterations go that do not come to rest. `tol`: on the residuals and the gap, in the
-/// program's units.
+/// program, so it is where active-set iterations go that do not come to rest. `tol` bounds
+/// the residuals and the duality gap, both in the program's units.
 BoxSolution solve_by_barrier(const BoxProgram& program, double tol);
 
 }  // namespace dotyk::solver

@@ -9,7 +9,7 @@ using algebra::DenseMatrix;
 using algebra::Vector;
 using problem::CondensedProblem;
 
-/// W_rr of a row is about 1/ρ, or more. One below this part of it is on what the generalised inverse fixes.
+/// W_rr is about 1/ρ_r or more. Where it is less than this part of 1/ρ_r, the row acts on unknowns that the generalised inverse fixes.
 constexpr double kFixed = 1e-8;
 
 class ReducedStep final : public Step {
@@ -31,7 +31,7 @@ class ReducedStep final : public Step {
       const int n = static_cast<int>(active.size());
       DenseMatrix H = condensed_.W()(active, active);
       DenseMatrix N = condensed_.N()(active, Eigen::all);
-      Vector g = condensed_.jump(lambda, Vector())(active), unit(n);  // of multipliers: a diagonal of 1, since compliances of weak springs are great
+      Vector g = condensed_.jump(lambda, Vector())(active), unit(n);  // of multipliers: H gets the diagonal 1, or a weak spring's compliance would hide all other rows
       for (int j = 0; j < n; ++j) {
         H(j, j) += l.added_compliance(active[j], rho_[active[j]]);
         g[j] -= l.offset(active[j], rho_[active[j]]);
@@ -60,7 +60,8 @@ class ReducedStep final : public Step {
                       Vector& lambda) {
     DenseMatrix L = H;
     if (!algebra::cholesky(L)) return false;
-    // A pivot this small is a dependent row that rounding let through; a diagonal below 1 a row on what the generalised inverse fixes.
+    // A pivot this small belongs to a dependent row that rounding let through. A diagonal below 1 belongs to a row that acts on
+    // unknowns which the generalised inverse fixes.
     for (int j = 0; j < L.rows(); ++j)
       if (!(L(j, j) * L(j, j) >= 1e-13 && H(j, j) > 0.5)) return false;
     Vector z = g;

@@ -31,7 +31,7 @@ struct About {
   NaturalMap map;
 };
 
-/// Newton's step from this state; nothing where there is none.
+/// Newton's step from this state; nothing where it is not finite.
 std::optional<State> step(const Problem& problem, const CondensedProblem& condensed, const State& from) {
   const State balanced{from.u.here() + condensed.response(out_of_balance(problem, from), Vector::Zero(condensed.kernel_size())), from.lambda};
   const About about(problem, condensed, balanced);

@@ -76,8 +76,8 @@ class NaturalMap {
   /// (λ', α') of a solution of the system; without one, of that by LU.
   Iterate take(const System& system, const algebra::Vector& solved) const;
   Iterate solve(const System& system) const { return take(system, algebra::Lu(system.matrix).solve(system.right_side)); }
-  /// By these factors of the matrix. Where it is singular, as where two contacts stick at one node, the shortest of those that leave least of the equations;
-  /// NaN where that is too much work.
+  /// The solution by an LU factorisation of the system's matrix. Where the matrix is singular, as where two contacts stick at one node: the
+  /// least-squares solution of least norm, or NaN where the matrix is too large for that.
   static algebra::Vector solved(const System& system, const algebra::Lu& lu);
   static bool singular(const algebra::Lu& lu) { return !(lu.inverse_norm_reciprocal() > 1e-12); }
 

@@ -41,8 +41,7 @@ constexpr int kFromNear = 60;  // iterations of proximal from a solution with po
 /// whose derivative is regular whatever the pieces. The springs are let go when its problem is nearly solved.
 ///
 /// Where the derivative is singular for another reason (two contacts that stick at one node, Coulomb friction with a great
-/// coefficient), the step is the shortest of those that leave least of the equations. Where no damped step decreases the
-/// merit, steps of the fixed point iteration λ := λ + θ(P(λ + ρx) − λ) take over.
+/// coefficient), the step is the least-squares solution of least norm. Where no damped step decreases the merit, steps of the fixed point iteration λ := λ + θ(P(λ + ρx) − λ) take over.
 class NewtonStepper {
  public:
   NewtonStepper(RowIteration& iteration, bool watch) : it_(iteration), watch_(watch) {}
