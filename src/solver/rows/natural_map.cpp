@@ -165,10 +165,10 @@ Iterate NaturalMap::take(const System& system, const Vector& solved) const {
   return to;
 }
 
-Vector NaturalMap::solved(const System& system, const algebra::Lu& lu) {
+Vector NaturalMap::solved(const System& system, const algebra::Lu& lu, double least) {
   constexpr int kMost = 1500;  // rows: beyond, a step is more work than many of the fixed point iteration
   constexpr double kRank = 1e-11;
-  if (!singular(lu)) return lu.solve(system.right_side);
+  if (!singular(least)) return lu.solve(system.right_side);
   if (system.matrix.rows() > kMost) return Vector::Constant(system.matrix.rows(), NAN);
   return algebra::MinimumNorm(system.matrix, kRank).solve(system.right_side);
 }

@@ -76,10 +76,10 @@ class NaturalMap {
   /// (λ', α') of a solution of the system; without one, of that by LU.
   Iterate take(const System& system, const algebra::Vector& solved) const;
   Iterate solve(const System& system) const { return take(system, algebra::Lu(system.matrix).solve(system.right_side)); }
-  /// The solution by an LU factorisation of the system's matrix. Where the matrix is singular, as where two contacts stick at one node: the
-  /// least-squares solution of least norm, or NaN where the matrix is too large for that.
-  static algebra::Vector solved(const System& system, const algebra::Lu& lu);
-  static bool singular(const algebra::Lu& lu) { return !(lu.inverse_norm_reciprocal() > 1e-12); }
+  /// The solution by an LU factorisation of the system's matrix G, of which `least` = 1/‖G⁻¹‖₁ is an estimate. Where G is singular, as where two
+  /// contacts stick at one node: the least-squares solution of least norm, or NaN where the matrix is too large for that.
+  static algebra::Vector solved(const System& system, const algebra::Lu& lu, double least);
+  static bool singular(double least) { return !(least > 1e-12); }
 
   const algebra::Vector& rho() const { return rho_; }
 

@@ -97,8 +97,9 @@ class NewtonStepper {
     Vector found(0);
     if (system.matrix.size() > 0) {
       Lu lu(system.matrix);
-      singular_value_ = watch_ ? algebra::smallest_singular_value(system.matrix) : lu.inverse_norm_reciprocal();
-      if (NaturalMap::singular(lu) && !held() && it_.alpha().size() > 0) {
+      double least = lu.inverse_norm_reciprocal();
+      singular_value_ = watch_ ? algebra::smallest_singular_value(system.matrix) : least;
+      if (NaturalMap::singular(least) && !held() && it_.alpha().size() > 0) {
         anchor_ = it_.map.scaled_alpha(it_.alpha());
         merits_.clear();
       }
@@ -106,8 +107,9 @@ class NewtonStepper {
         ++held_;
         system.hold(kHoldingSpring, anchor_);
         lu = Lu(system.matrix);
+        least = lu.inverse_norm_reciprocal();
       }
-      found = NaturalMap::solved(system, lu);
+      found = NaturalMap::solved(system, lu, least);
     }
     solution = it_.map.take(system, found);
     return solution.finite();

@@ -100,10 +100,15 @@ bool RowIteration::next() {
   return true;
 }
 
+Vector RowIteration::recovered(const Iterate& of) const {
+  if (!centred_) return condensed.recover(of.lambda, of.alpha);
+  return u_ + condensed.response(problem.B.transpose() * (centre_.lambda - of.lambda), of.alpha - centre_.alpha);
+}
+
 Vector RowIteration::displacements(const Iterate& of) const {
-  const Vector u = centred_ ? Vector(u_ + condensed.response(problem.B.transpose() * (centre_.lambda - of.lambda), of.alpha - centre_.alpha))
-                            : condensed.recover(of.lambda, of.alpha);
-  const Vector left = out_of_balance(problem, {u, of.lambda}), better = u + condensed.response(left, Vector::Zero(of.alpha.size()));
+  Vector u = recovered(of);
+  const Vector left = out_of_balance(problem, {u, of.lambda});
+  Vector better = u + condensed.response(left, Vector::Zero(of.alpha.size()));
   return out_of_balance(problem, {better, of.lambda}).norm() < 0.1 * left.norm() ? better : u;  // else it is rounding
 }
 
@@ -267,7 +272,7 @@ Result solve(const Problem& problem, const CondensedProblem& condensed, const Ro
   Result result = iteration.finish();
   result.method = method.name();
   result.clock.iterate = watch.lap();
-  result.state.u = iteration.displacements(iteration.at());
+  result.state.u = iteration.recovered(iteration.at());
   refine_rounded(problem, condensed, std::max(kRounded, method.tol), result);
   result.clock.recover = watch.lap();
   result.factor_bytes = condensed.factor_bytes();

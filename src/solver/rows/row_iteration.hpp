@@ -86,7 +86,8 @@ class RowIteration {
 
   /// Begins an iteration; false after the last one allowed, or where the user stops.
   bool next();
-  /// The displacements of an iterate.
+  /// The displacements of an iterate, by one solve with the factors; and with their equilibrium corrected once, as far as rounding lets it.
+  algebra::Vector recovered(const Iterate& of) const;
   algebra::Vector displacements(const Iterate& of) const;
   /// Writes the iterate into the history, with what `info` says beyond that; true where its residual is within tol.
   bool record(IterationInfo info = {});
