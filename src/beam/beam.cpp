@@ -8,7 +8,6 @@
 
 namespace dotyk::beam {
 
-using Kind = problem::SupportLaw::Kind;
 
 namespace {
 
@@ -21,17 +20,13 @@ void require_on_beam(const Beam& beam, double x, const std::string& what) {
     throw InputError(text(what, " is at x = ", x, "; the beam goes from 0 to ", beam.length));
 }
 
-bool rigid(const problem::SupportLaw& law) {
-  return law.kind == Kind::prescribed || law.kind == Kind::signorini || law.kind == Kind::friction || law.kind == Kind::one_sided_friction;
-}
-
 /// At a point that both hold rigidly.
 void require_agreement(const Support& s, const Foundation& f, double length) {
   const std::string both = text("the support ", s.name, " (", problem::describe(s.deflection), ") and the foundation there (", problem::describe(f.law), ")");
-  if (s.deflection.kind != Kind::prescribed)
+  if (!s.deflection->prescribes)
     throw InputError(text(both, " both hold the deflection rigidly, and which of them bears what is not known; keep one of them"));
-  const double u = s.deflection.value + s.deflection_at, floor = f.at + f.law.value * (f.law.kind == Kind::prescribed), rounding = 1e-12 * length;
-  if (f.law.kind == Kind::signorini ? u < floor - rounding : f.law.kind == Kind::prescribed && std::abs(u - floor) > rounding)
+  const double u = s.deflection.displacement() + s.deflection_at, floor = f.at + f.law.displacement(), rounding = 1e-12 * length;
+  if (f.law->stop() ? u < floor - rounding : f.law->prescribes && std::abs(u - floor) > rounding)
     throw InputError(text(both, " contradict each other: deflections ", u, " and ", floor));
 }
 
@@ -40,22 +35,22 @@ void require_foundation(const Beam& beam) {
   if (beam.foundation.size() != x.size()) throw InputError(text("its foundation has ", beam.foundation.size(), " laws for ", x.size(), " nodes"));
   for (std::size_t i = 0; i < x.size(); ++i) {
     const Foundation& f = beam.foundation[i];
-    if (f.law.kind == Kind::load || f.law.kind == Kind::breaking)
+    if (f.law->load || f.law->breaks)
       throw InputError(text("the foundation's law at x = ", x[i], " is ", problem::describe(f.law),
-                            f.law.kind == Kind::load ? "; loads along the beam are its load" : "; of supports at points alone all branches are found. capped_elastic limits the pressure"));
+                            f.law->load ? "; loads along the beam are its load" : "; of supports at points alone all branches are found. capped_elastic limits the pressure"));
     require_valid(f.law);
     if (!std::isfinite(f.at)) throw InputError(text("the foundation is at ", f.at, " where x = ", x[i]));
   }
   for (const Support& s : beam.supports)
-    if (const Foundation& f = beam.foundation[nearest(x, s.x)]; rigid(s.deflection) && rigid(f.law)) require_agreement(s, f, beam.length);
+    if (const Foundation& f = beam.foundation[nearest(x, s.x)]; s.deflection->rigid && f.law->rigid) require_agreement(s, f, beam.length);
 }
 
 }  // namespace
 
 bool has_row(const Beam& beam, const std::vector<double>& nodes, int node) {
-  if (!rigid(beam.foundation[node].law)) return true;
+  if (!beam.foundation[node].law->rigid) return true;
   return std::none_of(beam.supports.begin(), beam.supports.end(),
-                      [&](const Support& s) { return s.deflection.kind == Kind::prescribed && nearest(nodes, s.x) == node; });
+                      [&](const Support& s) { return s.deflection->prescribes && nearest(nodes, s.x) == node; });
 }
 
 void require_valid(const Beam& beam) {

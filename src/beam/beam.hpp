@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "problem/support_law.hpp"
+#include "problem/law_choice.hpp"
 
 namespace dotyk::beam {
 
@@ -13,13 +13,13 @@ namespace dotyk::beam {
 struct Support {
   std::string name;  ///< "left", "right", "x = 0.5": for messages and reactions
   double x = 0;
-  problem::SupportLaw deflection, rotation;
+  problem::LawChoice deflection, rotation;
   double deflection_at = 0, rotation_at = 0;  ///< the laws are about u − deflection_at, u' − rotation_at
 };
 
 /// A law per length about the deflection u − at.
 struct Foundation {
-  problem::SupportLaw law;
+  problem::LawChoice law;
   double at = 0;
 };
 

@@ -14,8 +14,7 @@ namespace dotyk::beam {
 using algebra::DenseMatrix;
 using algebra::SparseMatrix;
 using algebra::Vector;
-using problem::SupportLaw;
-using Kind = SupportLaw::Kind;
+using problem::LawChoice;
 
 namespace {
 
@@ -111,7 +110,7 @@ class Builder {
   void add_support(const Support& support) {
     SupportRows rows;
     rows.node = nearest(model_.nodes, support.x);
-    rows.turn = problem::directed(support.rotation.kind) ? -1 : 1;
+    rows.turn = support.rotation->directed() ? -1 : 1;
     rows.deflection = add_row(support.deflection, support.name + " deflection", 2 * rows.node, 1, 1, support.deflection_at);
     rows.rotation = add_row(support.rotation, support.name + " rotation", 2 * rows.node + 1, model_.unit, rows.turn, support.rotation_at);
     model_.supports.push_back(rows);
@@ -124,15 +123,15 @@ class Builder {
   }
 
   /// The row of a law about turn·(w/unit − at), w an unknown, for this share; −1 where it has none.
-  int add_row(const SupportLaw& law, const std::string& name, int unknown, double unit, double turn, double at, double share = 1) {
-    if (law.kind == Kind::load) f_[unknown] += law.value / unit;
-    if (law.kind == Kind::breaking && is_broken()) {
-      if (law.value > 0) offset_ += 0.5 * law.limit * law.limit / law.value;  // what breaking took
+  int add_row(const LawChoice& law, const std::string& name, int unknown, double unit, double turn, double at, double share = 1) {
+    f_[unknown] += law.force() / unit;
+    if (law->breaks && is_broken()) {
+      offset_ += problem::breaking_energy(law);
       return -1;
     }
     if (!problem::row_law(law)) return -1;
     rows_.open_group(name, law, unit);
-    return rows_.add({{unknown, -turn}}, -unit * ((law.kind == Kind::prescribed ? law.value : 0) + turn * at), share);
+    return rows_.add({{unknown, -turn}}, -unit * (law.displacement() + turn * at), share);
   }
 
   /// The next support that may break.
@@ -181,8 +180,8 @@ Model build(const Beam& beam, const std::vector<Broken>& broken) { return Builde
 std::vector<Breaking> breaking(const Beam& beam) {
   std::vector<Breaking> out;
   for (std::size_t i = 0; i < beam.supports.size(); ++i) {
-    if (beam.supports[i].deflection.kind == Kind::breaking) out.push_back({static_cast<int>(i), false});
-    if (beam.supports[i].rotation.kind == Kind::breaking) out.push_back({static_cast<int>(i), true});
+    if (beam.supports[i].deflection->breaks) out.push_back({static_cast<int>(i), false});
+    if (beam.supports[i].rotation->breaks) out.push_back({static_cast<int>(i), true});
   }
   return out;
 }

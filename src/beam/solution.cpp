@@ -91,8 +91,8 @@ Reaction Solution::reaction(int support) const {
   Reaction r;
   if (rows.deflection >= 0) r.force = lambda[rows.deflection];
   if (rows.rotation >= 0) r.moment = rows.turn * lambda[rows.rotation] * model_.unit;
-  if (laws.deflection.kind == problem::SupportLaw::Kind::load) r.force = laws.deflection.value;
-  if (laws.rotation.kind == problem::SupportLaw::Kind::load) r.moment = laws.rotation.value;
+  if (laws.deflection->load) r.force = laws.deflection.force();
+  if (laws.rotation->load) r.moment = laws.rotation.force();
   r.deflection = u.here()[2 * rows.node];
   r.rotation = u.here()[2 * rows.node + 1] / model_.unit;
   return r;

@@ -9,16 +9,13 @@
 
 namespace dotyk::beam {
 
-using Kind = problem::SupportLaw::Kind;
-
 std::string theorem(const Beam& beam) {
   bool one_sided = false, elastic = false, sliding = false, turning = false;
   for (const Support& s : beam.supports) {
-    one_sided |= s.deflection.kind == Kind::signorini;
-    elastic |= s.deflection.kind == Kind::one_sided_elastic || s.deflection.kind == Kind::breaking;
-    elastic |= s.deflection.kind == Kind::unequal_elastic && (s.deflection.value == 0) != (s.deflection.pull == 0);
-    sliding |= s.deflection.kind == Kind::friction || s.deflection.kind == Kind::one_sided_friction || s.deflection.kind == Kind::capped_elastic;
-    turning |= s.rotation.kind == Kind::friction || s.rotation.kind == Kind::one_sided_friction || s.rotation.kind == Kind::capped_elastic;
+    one_sided |= s.deflection->stop();
+    elastic |= problem::one_sided_spring(s.deflection);
+    sliding |= s.deflection->yields();
+    turning |= s.rotation->yields();
   }
   std::string out;
   if (elastic) out = "one-sided elastic supports: the load must press on both (theorem 2)";

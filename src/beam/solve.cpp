@@ -40,7 +40,7 @@ bool consistent(const Beam& beam, const std::vector<Breaking>& which, const std:
     const Reaction r = s.reaction(which[k].support);
     const auto& law = which[k].rotation ? support.rotation : support.deflection;
     const double against = which[k].rotation ? r.rotation - support.rotation_at : support.deflection_at - r.deflection;  // one-sided: deflections down, rotations up
-    const bool beyond = law.value * against > law.limit;
+    const bool beyond = law.stiffness() * against > law.bound();
     if (beyond != (broken[k] == Broken::yes)) return false;
   }
   return true;

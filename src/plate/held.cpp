@@ -9,7 +9,6 @@
 namespace dotyk::plate {
 
 using Eigen::Vector2d;
-using Kind = problem::SupportLaw::Kind;
 
 namespace {
 
@@ -31,16 +30,16 @@ class Holder {
   Held operator()(std::vector<Sample>& deflections, std::vector<Sample>& rotations) {
     const bool hct = space_.element == Element::hct;
     for (Sample& s : deflections) {
-      if (s.law.kind != Kind::prescribed) continue;
+      if (!s.law->prescribes) continue;
       s.held = true;
-      set(space_.of_vertex(s.place), s.law.value, s.x);
+      set(space_.of_vertex(s.place), s.law.displacement(), s.x);
       if (hct) hold_tangents(s);
     }
     for (Sample& s : rotations) {
-      if (s.law.kind != Kind::prescribed) continue;
+      if (!s.law->prescribes) continue;
       s.held = true;
-      if (!s.at_vertex) set(space_.of_edge(s.place), s.law.value * space_.unit, s.x);
-      else slopes_[s.place].push_back({slope_direction(space_, s), s.law.value});
+      if (!s.at_vertex) set(space_.of_edge(s.place), s.law.displacement() * space_.unit, s.x);
+      else slopes_[s.place].push_back({slope_direction(space_, s), s.law.displacement()});
     }
     for (const auto& [vertex, slopes] : slopes_) hold_slopes(vertex, slopes);
     return std::move(held_);
@@ -84,9 +83,9 @@ class Holder {
     std::array<bool, 5> there{};
     for (int i = 0; i < 5; ++i) {
       const Vector2d x = s.x + (i - 2) * h * t;
-      const problem::SupportLaw at = law(x[0], x[1]);
-      v[i] = at.value;
-      there[i] = at.kind == Kind::prescribed && std::isfinite(at.value);
+      const problem::LawChoice at = law(x[0], x[1]);
+      v[i] = at.displacement();
+      there[i] = at->prescribes && std::isfinite(at.displacement());
     }
     if (there[0] && there[1] && there[3] && there[4]) return (v[0] - v[4] + 8 * (v[3] - v[1])) / (12 * h);
     if (there[3] && there[4]) return (4 * v[3] - v[4] - 3 * v[2]) / (2 * h);

@@ -106,10 +106,10 @@ std::optional<Vector2d> projected(const LawField& law, const std::string& part, 
   double mean = 0, slope = 0;
   for (Eigen::Index g = 0; g < gauss3().points.size(); ++g) {
     const double t = gauss3().points[g];
-    const problem::SupportLaw at = law_at(law, part, a + t * along);  // x = 1 stays 1
-    if (at.kind != problem::SupportLaw::Kind::load) return std::nullopt;
-    mean += gauss3().weights[g] * at.value;
-    slope += 3 * gauss3().weights[g] * (2 * t - 1) * at.value;
+    const problem::LawChoice at = law_at(law, part, a + t * along);  // x = 1 stays 1
+    if (!at->load) return std::nullopt;
+    mean += gauss3().weights[g] * at.force();
+    slope += 3 * gauss3().weights[g] * (2 * t - 1) * at.force();
   }
   return Vector2d(mean - slope, mean + slope);
 }
@@ -132,16 +132,15 @@ Vector loads(const Plate& plate, const Space& space) {
   };
   for (const PointLoad& point : plate.point_loads) add_point(point.x, point.y, point.force, "a point load:");
   for (const PointSupport& s : plate.supports)
-    if (s.deflection.kind == problem::SupportLaw::Kind::load) add_point(s.x, s.y, s.deflection.value, "a support:");
+    if (s.deflection->load) add_point(s.x, s.y, s.deflection.force(), "a support:");
   for (const LineLoad& line : plate.line_loads) add_line(line, space, finder, load);
   return load;
 }
 
 void add_law_loads(const Plate& plate, const Space& space, std::vector<Sample>& deflections, std::vector<Sample>& rotations, Vector& load) {
-  using Kind = problem::SupportLaw::Kind;
-  std::map<std::pair<int, int>, VertexLoad> loaded;  // by support and vertex
+    std::map<std::pair<int, int>, VertexLoad> loaded;  // by support and vertex
   for (const Sample& s : deflections)
-    if (s.law.kind == Kind::load) loaded[{s.support, s.place}] = {s.law.value};
+    if (s.law->load) loaded[{s.support, s.place}] = {s.law.force()};
   for (int s = 0; s < static_cast<int>(plate.edges.size()) && !loaded.empty(); ++s)
     for (const mesh::Facet f : plate.edges[s].facets) {
       const int index = space.edges.of_cell[f.cell][f.local];
@@ -158,13 +157,13 @@ void add_law_loads(const Plate& plate, const Space& space, std::vector<Sample>& 
       }
     }
   for (Sample& s : deflections)
-    if (s.law.kind == Kind::load) s.law.value = loaded.at({s.support, s.place}).force / s.share;
+    if (s.law->load) s.law.numbers[0] = loaded.at({s.support, s.place}).force / s.share;
   for (Sample& s : rotations) {
-    if (s.law.kind != Kind::load) continue;
+    if (!s.law->load) continue;
     const EdgeSupport& on = plate.edges[s.support];
     if (space.element == Element::morley)
-      if (const auto linear = projected(on.rotation, on.part, space, space.edges.edges[s.place])) s.law.value = linear->mean();
-    add(load, rotation(space, s), s.law.value * s.share);
+      if (const auto linear = projected(on.rotation, on.part, space, space.edges.edges[s.place])) s.law.numbers[0] = linear->mean();
+    add(load, rotation(space, s), s.law.force() * s.share);
   }
 }
 

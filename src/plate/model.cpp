@@ -76,10 +76,9 @@ void balance(const DenseMatrix& R, Vector& f) {
 
 /// Is a load along an edge a function?
 bool load_varies(const std::vector<Sample>& samples) {
-  using Kind = problem::SupportLaw::Kind;
-  for (std::size_t i = 1; i < samples.size(); ++i) {
+    for (std::size_t i = 1; i < samples.size(); ++i) {
     const Sample &a = samples[i - 1], &b = samples[i];
-    if (a.support == b.support && a.law.kind == Kind::load && b.law.kind == Kind::load && a.law.value != b.law.value) return true;
+    if (a.support == b.support && a.law->load && b.law->load && a.law.force() != b.law.force()) return true;
   }
   return false;
 }

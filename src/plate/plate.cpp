@@ -44,7 +44,7 @@ void require_valid(const Plate& plate) {
   }
   for (const PointSupport& support : plate.supports) {
     require_valid(support.deflection);
-    if (support.deflection.kind == problem::SupportLaw::Kind::breaking) throw InputError("supports of plates do not break; capped_elastic yields instead");
+    if (support.deflection->breaks) throw InputError("supports of plates do not break; capped_elastic yields instead");
   }
   require_facets_once(plate);
 }

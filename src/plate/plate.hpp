@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "mesh/mesh.hpp"
-#include "problem/support_law.hpp"
+#include "problem/law_choice.hpp"
 
 namespace dotyk::plate {
 
@@ -24,7 +24,7 @@ const char* element_name(Element element);
 
 /// Of a point of the plate.
 using Field = std::function<double(double x, double y)>;
-using LawField = std::function<problem::SupportLaw(double x, double y)>;
+using LawField = std::function<problem::LawChoice(double x, double y)>;
 
 /// What supports do along a part of the edge. Of laws per length: reaction, stiffness, bound and limit. A law of the
 /// deflection u is about v = u, upwards; one of the rotation about v = ∂ₙu, n outwards, its reaction a moment per length that does work on ∂ₙu
@@ -38,7 +38,7 @@ struct EdgeSupport {
 /// Of the deflection, at a point of the plate; it need not be a node.
 struct PointSupport {
   double x = 0, y = 0;
-  problem::SupportLaw deflection;
+  problem::LawChoice deflection;
 };
 
 struct PointLoad {

@@ -11,9 +11,8 @@ namespace dotyk::plate {
 
 using algebra::Vector;
 using Eigen::Vector2d;
-using problem::SupportLaw;
+using problem::LawChoice;
 using problem::Status;
-using Kind = SupportLaw::Kind;
 
 namespace {
 
@@ -57,7 +56,7 @@ class ReactionCollector {
     for (const Sample& d : model_.deflections)
       if (d.row >= 0) take_off(plate::deflection(model_.space, d), lambda()[d.row] * d.part_of_row);
     for (const Sample& r : model_.rotations)
-      if (r.row >= 0) take_off(plate::rotation(model_.space, r), (problem::directed(r.law.kind) ? -1 : 1) * lambda()[r.row] * r.part_of_row * model_.space.unit);
+      if (r.row >= 0) take_off(plate::rotation(model_.space, r), (r.law->directed() ? -1 : 1) * lambda()[r.row] * r.part_of_row * model_.space.unit);
     const Finder finder(model_.space);
     for (std::size_t k = 0; k < model_.point_row.size(); ++k) {
       if (model_.point_row[k] < 0) continue;
@@ -71,7 +70,7 @@ class ReactionCollector {
     double force = 0;
     if (sample.held) force = holding_[model_.space.of_vertex(sample.place)] * sample.share / shares_[sample.place];
     if (sample.row >= 0) force = lambda()[sample.row] * sample.part_of_row;
-    if (sample.law.kind == Kind::load) force = sample.law.value * sample.share;
+    if (sample.law->load) force = sample.law.force() * sample.share;
     AtVertex& vertex = at[sample.place];
     vertex.force += force;
     if (sample.held && !model_.space.frame.empty()) vertex.couple = couple(sample.place);
@@ -81,11 +80,11 @@ class ReactionCollector {
 
   void add_rotation(const Sample& sample) {
     double moment = 0;
-    const double turn = problem::directed(sample.law.kind) ? -1 : 1;
+    const double turn = sample.law->directed() ? -1 : 1;
     if (sample.held && !sample.at_vertex) moment = holding_[model_.space.of_edge(sample.place)] * model_.space.unit;
     if (sample.held && sample.at_vertex) moment = held_moment(sample);
     if (sample.row >= 0) moment = turn * lambda()[sample.row] * sample.part_of_row * model_.space.unit;
-    if (sample.law.kind == Kind::load) moment = sample.law.value * sample.share;
+    if (sample.law->load) moment = sample.law.force() * sample.share;
     const auto add = [&](int vertex, double part) {
       at[vertex].moment += part * moment;
       if (!at[vertex].rotation) at[vertex].rotation = &sample;
@@ -114,7 +113,7 @@ class ReactionCollector {
 
 /// By the multiplier of the vertex's own row; HCT: open where the halves of its edges bear nothing either.
 Status status(const Solution& s, const std::vector<const problem::RowGroup*>& groups, const AtVertex& at) {
-  if (!at.deflection || at.deflection->law.kind == Kind::free || at.deflection->law.kind == Kind::load) return Status::open;
+  if (!at.deflection || !at.deflection->law->acts() || at.deflection->law->load) return Status::open;
   if (at.row < 0) return Status::closed;
   const Vector& lambda = s.result().state.lambda;
   const double noise = 1e-9 * lambda.lpNorm<Eigen::Infinity>(), force = lambda[at.row];
@@ -164,7 +163,7 @@ EdgeReaction reaction(const Solution& s, int support) {
     for (const int n : nodes) {
       const AtVertex& at = collected.at.at(n);
       EdgePoint point{n, s.plate().mesh->node(n)[0], s.plate().mesh->node(n)[1], 0, at.length, s.vertex_deflection(n), 0, at.force, at.moment,
-                      at.deflection ? at.deflection->law : SupportLaw{}, at.rotation ? at.rotation->law : SupportLaw{}, status(s, groups, at), !model.space.boundary[n].smooth};
+                      at.deflection ? at.deflection->law : LawChoice{}, at.rotation ? at.rotation->law : LawChoice{}, status(s, groups, at), !model.space.boundary[n].smooth};
       for (const int e : model.space.boundary[n].edges)
         point.slope += s.freedoms()[model.space.of_edge(e)] / model.space.unit / static_cast<double>(model.space.boundary[n].edges.size());
       if (!piece.empty()) point.at = piece.back().at + distance(piece.back(), point);
@@ -177,8 +176,8 @@ EdgeReaction reaction(const Solution& s, int support) {
 }
 
 double point_reaction(const Solution& s, int support) {
-  const SupportLaw& law = s.plate().supports[support].deflection;
-  if (law.kind == Kind::load) return law.value;
+  const LawChoice& law = s.plate().supports[support].deflection;
+  if (law->load) return law.force();
   const int row = s.model().point_row[support];
   return row < 0 ? 0 : s.result().state.lambda[row];
 }

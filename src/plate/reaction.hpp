@@ -15,7 +15,7 @@ struct EdgePoint {
   double force;        ///< upwards, loads by laws included; HCT: also the couples that hold the slope along a smooth edge, as pairs of forces
   double moment;       ///< doing work on ∂ₙu: −Mₙ times length
   double per_length() const { return force / length; }
-  problem::SupportLaw deflection_law, rotation_law;
+  problem::LawChoice deflection_law, rotation_law;
   problem::Status status;  ///< of the deflection: open where nothing holds it there; closed; friction: stick or slip
   bool corner;
 };

@@ -10,8 +10,7 @@
 namespace dotyk::plate {
 namespace {
 
-using problem::SupportLaw;
-using Kind = SupportLaw::Kind;
+using problem::LawChoice;
 
 /// The edges of a place in Plate::edges, line by line.
 std::vector<std::vector<int>> edge_chains(const Model& model, int number) {
@@ -41,11 +40,7 @@ std::vector<std::vector<int>> edge_chains(const Model& model, int number) {
 }
 
 /// Which of the laws that hold a point rigidly prevails: the greater.
-int rigidity(Kind kind) {
-  static constexpr std::array rising{Kind::one_sided_friction, Kind::friction, Kind::signorini, Kind::prescribed};
-  const auto at = std::find(rising.begin(), rising.end(), kind);
-  return at == rising.end() ? 0 : static_cast<int>(at - rising.begin()) + 1;
-}
+int rigidity(const problem::LawTraits& law) { return law.rigid ? 1 + law.pulls + 2 * !law.bounded : 0; }
 
 /// What laws of edges are about.
 struct About {
@@ -89,10 +84,10 @@ class RowMaker {
     std::vector<std::array<int, 3>> order;
     for (Sample& s : samples) {
       if (s.held) {
-        if (!about.rotation && plate_.obstacle) require_above(s.place, s.law.value, s.x);
+        if (!about.rotation && plate_.obstacle) require_above(s.place, s.law.displacement(), s.x);
         continue;
       }
-      if (s.law.kind == Kind::free || s.law.kind == Kind::load) continue;
+      if (!s.law->acts() || s.law->load) continue;
       const bool of_edge = !s.at_vertex || (about.rotation && !s.along_node);
       const bool of_part = !about.rotation && model_.space.element == Element::hct;  // the mean about a corner, along one part's edge
       const std::array<int, 3> key{s.at_vertex, s.place, of_edge ? s.edges[0] : of_part ? s.edges[0] : -1};
@@ -107,14 +102,15 @@ class RowMaker {
   void add_point(std::vector<Sample*>& samples, const About& about, const Functional& v) {
     const Reduced reduced = reduce(v, model_.held);
     int most = 0;
-    for (const Sample* s : samples) most = std::max(most, rigidity(s->law.kind));
+    for (const Sample* s : samples) most = std::max(most, rigidity(s->law.spec->traits));
     std::vector<char> done(samples.size(), 0);
     for (std::size_t i = 0; i < samples.size(); ++i) {
-      const Kind kind = samples[i]->law.kind;
-      if (done[i] || (rigidity(kind) > 0 && rigidity(kind) < most) || (most == 4 && kind != Kind::prescribed)) continue;
+      const LawChoice& law = samples[i]->law;
+      const int own = rigidity(law.spec->traits);
+      if (done[i] || (own > 0 && own < most) || (most == 4 && !law->prescribes)) continue;
       std::vector<Sample*> alike;
       for (std::size_t j = i; j < samples.size(); ++j)
-        if (samples[j]->law.kind == kind) alike.push_back(samples[j]), done[j] = 1;
+        if (samples[j]->law.is(*law.spec)) alike.push_back(samples[j]), done[j] = 1;
       add_alike(alike, about, reduced);
     }
   }
@@ -122,20 +118,17 @@ class RowMaker {
   void add_alike(const std::vector<Sample*>& samples, const About& about, const Reduced& v) {
     double share = 0;
     for (const Sample* s : samples) share += s->share;
-    SupportLaw law = samples.front()->law;
-    if (samples.size() > 1 && law.kind != Kind::prescribed) {
-      law.value = law.limit = law.pull = 0;
-      for (const Sample* s : samples) {
-        law.value += s->law.value * s->share / share;
-        law.limit += s->law.limit * s->share / share;
-        law.pull += s->law.pull * s->share / share;
-      }
+    LawChoice law = samples.front()->law;
+    if (samples.size() > 1 && !law->prescribes) {
+      law.numbers.fill(0);
+      for (const Sample* s : samples)
+        for (std::size_t i = 0; i < law.numbers.size(); ++i) law.numbers[i] += s->law.numbers[i] * s->share / share;
     }
     const Sample& first = *samples.front();
-    const double floor = !about.rotation && law.kind == Kind::signorini && plate_.obstacle ? mind_obstacle(first) : 0;
-    const double turn = about.rotation && problem::directed(law.kind) ? -1 : 1;
+    const double floor = !about.rotation && law->stop() && plate_.obstacle ? mind_obstacle(first) : 0;
+    const double turn = about.rotation && law->directed() ? -1 : 1;
     if (v.on_free.empty()) return require_obeyed(law, turn * v.held, floor, first);
-    const double target = law.kind == Kind::prescribed ? law.value : floor;
+    const double target = law->prescribes ? law.displacement() : floor;
     const int row = add(law, text("edge '", plate_.edges[first.support].part, "' ", about.name), v, turn * about.unit, -target * about.unit, about.unit, share,
                         text(about.name, " of the edge at (", first.x[0], ", ", first.x[1], ")"));
     for (Sample* s : samples) s->row = row, s->part_of_row = s->share / share;
@@ -153,15 +146,15 @@ class RowMaker {
       throw InputError(text("contradictory supports: at (", x[0], ", ", x[1], ") the deflection is held at ", held, ", below the obstacle's ", height_[vertex]));
   }
 
-  void require_obeyed(const SupportLaw& law, double v, double floor, const Sample& s) const {
+  void require_obeyed(const LawChoice& law, double v, double floor, const Sample& s) const {
     const double rounding = 1e-12 * model_.space.unit;
-    if ((law.kind == Kind::signorini && v < floor - rounding) || (law.kind == Kind::prescribed && std::abs(v - law.value) > rounding))
-      throw InputError(text("contradictory supports: at (", s.x[0], ", ", s.x[1], ") the ", problem::support_name(law.kind), " law of edge '",
-                            plate_.edges[s.support].part, "' and what other parts of the edge hold differ by ", std::abs(v - (law.kind == Kind::signorini ? floor : law.value))));
+    if ((law->stop() && v < floor - rounding) || (law->prescribes && std::abs(v - law.displacement()) > rounding))
+      throw InputError(text("contradictory supports: at (", s.x[0], ", ", s.x[1], ") the ", law.spec->words, " law of edge '",
+                            plate_.edges[s.support].part, "' and what other parts of the edge hold differ by ", std::abs(v - (law->stop() ? floor : law.displacement()))));
   }
 
   /// x = −factor·v − c. The law is about v; consecutive rows of equal laws make a group.
-  int add(const SupportLaw& law, const std::string& group, const Reduced& v, double factor, double c, double unit, double share, std::string place) {
+  int add(const LawChoice& law, const std::string& group, const Reduced& v, double factor, double c, double unit, double share, std::string place) {
     if (!rows_.is_open(group, law)) rows_.open_group(group, law, unit);
     for (const Term& term : v.on_free) rows_.entry(model_.unknown[term.freedom], -factor * term.factor);
     places_.push_back(std::move(place));
@@ -174,10 +167,10 @@ class RowMaker {
     for (const PointSupport& s : plate_.supports) {
       const Place place = finder.find({s.x, s.y}, "a support:");
       model_.point_row.push_back(-1);
-      if (s.deflection.kind == Kind::free || s.deflection.kind == Kind::load) continue;
+      if (!s.deflection->acts() || s.deflection->load) continue;
       const Reduced v = reduce(model_.space.deflection_at(place.cell, place.at), model_.held);
       if (v.on_free.empty()) throw InputError(text("a support: at (", s.x, ", ", s.y, ") the edge is held already"));
-      model_.point_row.back() = add(s.deflection, text("support at (", s.x, ", ", s.y, ")"), v, 1, s.deflection.kind == Kind::prescribed ? -s.deflection.value : 0, 1, 1,
+      model_.point_row.back() = add(s.deflection, text("support at (", s.x, ", ", s.y, ")"), v, 1, -s.deflection.displacement(), 1, 1,
                                     text("the support at (", s.x, ", ", s.y, ")"));
     }
   }
@@ -187,7 +180,7 @@ class RowMaker {
       if (minded_[n] || !std::isfinite(height_[n])) continue;
       const Reduced v = reduce(model_.space.deflection_of_vertex(n), model_.held);
       if (v.on_free.empty()) continue;
-      model_.obstacle_row[n] = add({.kind = Kind::signorini}, "obstacle", v, 1, -height_[n], 1, 1,
+      model_.obstacle_row[n] = add({&problem::laws::signorini}, "obstacle", v, 1, -height_[n], 1, 1,
                                    text("the obstacle at (", plate_.mesh->node(n)[0], ", ", plate_.mesh->node(n)[1], ")"));
     }
   }

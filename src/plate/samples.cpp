@@ -7,16 +7,16 @@
 namespace dotyk::plate {
 
 using Eigen::Vector2d;
-using problem::SupportLaw;
+using problem::LawChoice;
 
-SupportLaw law_at(const LawField& law, const std::string& part, const Vector2d& x) {
-  const SupportLaw at = law(x[0], x[1]);
+LawChoice law_at(const LawField& law, const std::string& part, const Vector2d& x) {
+  const LawChoice at = law(x[0], x[1]);
   try {
     require_valid(at);
   } catch (const InputError& error) {
     throw InputError(text("edge '", part, "' at (", x[0], ", ", x[1], "): ", error.what()));
   }
-  if (at.kind == SupportLaw::Kind::breaking) throw InputError(text("edge '", part, "': supports of plates do not break; capped_elastic yields instead"));
+  if (at->breaks) throw InputError(text("edge '", part, "': supports of plates do not break; capped_elastic yields instead"));
   return at;
 }
 

@@ -15,14 +15,14 @@ struct Sample {
   bool along_node = false;  ///< a slope along the node's normal, not the edge's
   double share;          ///< length
   Eigen::Vector2d x;
-  problem::SupportLaw law;
+  problem::LawChoice law;
   int row = -1;          ///< of the problem; −1: free, loaded, or held by freedoms
   double part_of_row = 1;  ///< share / all shares of its row
   bool held = false;     ///< its freedoms are held
 };
 
 /// The law of an edge's part at a point. Throws InputError, naming both, where it is not valid there or one that plates do not have.
-problem::SupportLaw law_at(const LawField& law, const std::string& part, const Eigen::Vector2d& x);
+problem::LawChoice law_at(const LawField& law, const std::string& part, const Eigen::Vector2d& x);
 
 /// Where laws act. Those of the deflection, for half of either edge: the vertices. What they act on is with Morley's element the deflection there; with HCT its
 /// mean about the vertex, weighted by the hat function, so that reactions are linear along an edge and the forces on the slopes are theirs, too:

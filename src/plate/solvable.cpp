@@ -8,8 +8,7 @@
 
 namespace dotyk::plate {
 
-using problem::SupportLaw;
-using Kind = SupportLaw::Kind;
+using problem::LawChoice;
 using algebra::Vector;
 
 namespace {
@@ -34,12 +33,12 @@ struct Kinds {
 
 Kinds kinds(const Model& model) {
   Kinds out;
-  const auto note = [&](const SupportLaw& law, double share) {
-    out.signorini |= law.kind == Kind::signorini;
-    out.one_sided_elastic |= law.kind == Kind::one_sided_elastic || law.kind == Kind::compliance || (law.kind == Kind::unequal_elastic && (law.value == 0) != (law.pull == 0));
-    const bool yields = law.kind == Kind::capped_elastic, rubs = law.kind == Kind::friction || law.kind == Kind::one_sided_friction;
-    out.friction |= yields || rubs;
-    out.bound += share * (yields ? law.limit : rubs ? law.value : 0);
+  const auto note = [&](const LawChoice& law, double share) {
+    out.signorini |= law->stop();
+    out.one_sided_elastic |= problem::one_sided_spring(law);
+    if (!law->yields()) return;
+    out.friction = true;
+    out.bound += share * law.bound();
   };
   for (const Sample& s : model.deflections) note(s.law, s.share);
   for (const PointSupport& s : model.plate.supports) note(s.deflection, 1);

@@ -4,6 +4,7 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "problem/law_table.hpp"
 
 namespace dotyk::problem {
 namespace {
@@ -35,6 +36,11 @@ std::shared_ptr<const Friction> tresca(std::vector<double> bounds) {
 std::shared_ptr<const Friction> coulomb(std::vector<double> coefficients) {
   return std::make_shared<Bounded>("Coulomb friction", std::move(coefficients), true);
 }
+
+const LawSpec laws::coulomb{
+    .name = "coulomb", .words = "Coulomb friction", .help = "Friction bounded by mu times the normal force.",
+    .traits = {.rigid = true, .pushes = true, .pulls = true, .bounded = true, .follows = true},
+    .numbers = {{{.name = "mu", .role = LawNumber::Role::coefficient, .help = "coefficient, not negative", .example = "0.3"}}}};
 
 DiscProjection project_disc(const Eigen::Ref<const Eigen::VectorXd>& y, double bound) {
   const Eigen::Index n = y.size();

@@ -29,6 +29,11 @@ struct Springs {
   double below, above;
 };
 
+/// λ at a displacement x and dλ/dx there: infinite where x is held, at a kink that of one side.
+struct Response {
+  double force, slope;
+};
+
 /// An interface law φ on one row: λ ∈ ∂φ(x), x = (Bu − c)_r. Unit of λ: that of
 /// f (force, integrated over the node's share of the boundary); of x: of u.
 ///
@@ -53,6 +58,12 @@ class Law {
   virtual bool unilateral() const { return false; }
   /// Of φ* on multipliers(), where that is one parabola or two: λ(x) is then piecewise linear.
   virtual std::optional<Springs> springs(int /*row*/) const { return std::nullopt; }
+  /// λ(x), that of least size where there are several. This and the next two are those of springs(); a law without must say itself.
+  virtual Response respond(int row, double x) const;
+  /// x(λ), of multipliers between the law's ends.
+  virtual double displacement(int row, double lambda) const;
+  /// Where λ(x) has a kink or several values, x ascending.
+  virtual std::vector<double> kinks(int row) const;
   /// k where φ(x) = ½kx² for every x (infinite: x = 0); nothing where the law has branches.
   virtual std::optional<double> linear_stiffness(int /*row*/) const { return std::nullopt; }
 };

@@ -8,7 +8,7 @@ void Rows::open_group(std::string name, std::shared_ptr<const Law> law) {
   open_ = true;
 }
 
-void Rows::open_group(std::string name, const SupportLaw& law, double unit) {
+void Rows::open_group(std::string name, const LawChoice& law, double unit) {
   open_group(std::move(name), nullptr);
   by_share_ = true, law_ = law, unit_ = unit;
 }

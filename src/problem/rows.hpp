@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "problem/problem.hpp"
-#include "problem/support_law.hpp"
+#include "problem/law_choice.hpp"
 
 namespace dotyk::problem {
 
@@ -18,11 +18,11 @@ class Rows {
   /// Rows added from now on are under this law.
   void open_group(std::string name, std::shared_ptr<const Law> law);
   /// Or under this one about v·unit, each for the share that it is added with: see row_law().
-  void open_group(std::string name, const SupportLaw& law, double unit = 1);
+  void open_group(std::string name, const LawChoice& law, double unit = 1);
   /// Rows added from now on are tangential, under a friction law of Problem::friction; returns the next row.
   int open_friction();
   /// Is the last group one of this name and this law?
-  bool is_open(const std::string& name, const SupportLaw& law) const { return open_ && problem_.groups.back().name == name && law_ == law; }
+  bool is_open(const std::string& name, const LawChoice& law) const { return open_ && problem_.groups.back().name == name && law_ == law; }
 
   /// An entry of the next row. One of several for the same unknown adds to them.
   void entry(int unknown, double value) { entries_.emplace_back(count(), unknown, value), any_ = true; }
@@ -43,7 +43,7 @@ class Rows {
   Problem& problem_;
   bool open_ = false;    ///< rows belong to the last scalar group
   bool by_share_ = false, any_ = false;
-  SupportLaw law_;
+  LawChoice law_;
   double unit_ = 1;
   std::vector<double> shares_, c_;
   algebra::Triplets entries_;

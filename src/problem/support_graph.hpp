@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "problem/support_law.hpp"
+#include "problem/law_choice.hpp"
 
 namespace dotyk::problem {
 
@@ -26,12 +26,9 @@ struct SupportGraph {
   double low, high;             ///< φ is finite for low ≤ v ≤ high; infinite where nothing bounds v
 };
 
-SupportGraph graph(const SupportLaw& law, const GraphWindow& window);
+SupportGraph graph(const LawChoice& law, const GraphWindow& window);
 
 /// φ(v), force·length; infinite where the law forbids v. Of a breaking support ½k(v⁻)² up to what breaks it, limit²/2k.
-double energy(const SupportLaw& law, double v);
-
-/// −g/k, where a breaking support breaks, and ±g/k, where a capped one yields: g/k; infinite where k = 0, and for all others.
-double yield_displacement(const SupportLaw& law);
+double energy(const LawChoice& law, double v);
 
 }  // namespace dotyk::problem

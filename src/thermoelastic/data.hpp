@@ -14,8 +14,8 @@ namespace dotyk::thermoelastic {
 struct Support {
   std::string name;  ///< "left", "right", "x = 0.5"
   double x = 0;
-  problem::SupportLaw deflection, rotation;
-  problem::SupportLaw displacement;  ///< along the axis; at the ends alone
+  problem::LawChoice deflection, rotation;
+  problem::LawChoice displacement;  ///< along the axis; at the ends alone
 };
 
 /// Is ϑ₁, or ϑ₂, prescribed at an end (Loads says to what)? Otherwise no heat passes there.

@@ -20,7 +20,6 @@ namespace {
 using algebra::DenseMatrix;
 using algebra::SparseMatrix;
 using algebra::Vector;
-using Kind = problem::SupportLaw::Kind;
 using Entries = std::vector<Eigen::Triplet<double>>;
 
 void add(Entries& to, int row, int column, const DenseMatrix& block) {
@@ -32,14 +31,6 @@ SparseMatrix sparse(int rows, int columns, const Entries& entries) {
   SparseMatrix out(rows, columns);
   out.setFromTriplets(entries.begin(), entries.end());
   return out;
-}
-
-/// Laws that can give a reaction.
-bool carries(const problem::SupportLaw& law) {
-  if (law.kind == Kind::free || law.kind == Kind::load) return false;
-  if (law.kind == Kind::prescribed || law.kind == Kind::signorini) return true;
-  if (law.kind == Kind::unequal_elastic) return law.value > 0 || law.pull > 0;
-  return law.value > 0 && (law.kind != Kind::capped_elastic || law.limit > 0);
 }
 
 double checked(double value, const char* what, double x, double t) {
@@ -65,10 +56,10 @@ Vector on_cells(double constant, const std::function<double(double)>& of, const 
 
 std::vector<Held> held(const Data& data, const std::vector<double>& nodes, Effect::Kind kind) {
   std::vector<Held> out;
-  const auto add = [&](const Support& s, std::size_t i, What what, const char* of, const problem::SupportLaw& law,
+  const auto add = [&](const Support& s, std::size_t i, What what, const char* of, const problem::LawChoice& law,
                        int unknown, double unit, double turn) {
-    if (carries(law))
-      out.push_back({static_cast<int>(i), what, s.name + of, unknown, unit, problem::directed(law.kind) ? turn : 1, law});
+    if (problem::bears(law))
+      out.push_back({static_cast<int>(i), what, s.name + of, unknown, unit, law->directed() ? turn : 1, law});
   };
   for (std::size_t i = 0; i < data.supports.size(); ++i) {
     const Support& s = data.supports[i];
@@ -101,7 +92,7 @@ std::string motion(const Model& model, const std::vector<int>& parts, const Vect
 }  // namespace
 
 double Held::given(const SupportsDriven& driven) const {
-  return unit * ((law.kind == Kind::prescribed ? law.value : 0) + turn * place(driven));
+  return unit * ((law.displacement()) + turn * place(driven));
 }
 
 Model::Model(const Data& given, const std::vector<Effect::Kind>& effects) : data(given), coefficients(given), heat(nodes(given)) {
@@ -174,9 +165,9 @@ SupportsDriven Model::driven(const Loads& loads, double t) const {
   SupportsDriven out(data.supports.size());
   for (std::size_t i = 0; i < out.size(); ++i) {
     const Support& s = data.supports[i];
-    const std::array<const problem::SupportLaw*, 3> laws{&s.deflection, &s.rotation, &s.displacement};
+    const std::array<const problem::LawChoice*, 3> laws{&s.deflection, &s.rotation, &s.displacement};
     for (int k = 0; k < 3; ++k)
-      if (laws[k]->kind == Kind::load) out[i][k].force = laws[k]->value;
+      out[i][k].force = laws[k]->force();
   }
   for (const SupportLoads& given : loads.supports) {
     const auto at = std::find_if(data.supports.begin(), data.supports.end(), [&](const Support& s) { return s.x == given.x; });

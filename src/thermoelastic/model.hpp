@@ -29,7 +29,7 @@ struct Held {
   std::string name;
   int unknown = 0;
   double unit = 1, turn = 1;
-  problem::SupportLaw law;
+  problem::LawChoice law;
   double place(const SupportsDriven& driven) const { return driven[support][static_cast<int>(what)].place; }
   /// The row of the law is x = given − turn·w.
   double given(const SupportsDriven& driven) const;

@@ -21,7 +21,7 @@ constexpr double kEqual = 1e-9;  // forces whose relative difference may be roun
 /// The ratio of a breaking support's reaction to its limit; 0 for other laws.
 double share_of_limit(const Held& held, double reaction) {
   const double r = held.turn * reaction * held.unit;
-  return held.law.kind == problem::SupportLaw::Kind::breaking && r > 0 ? r / held.law.limit : 0;
+  return held.law->breaks && r > 0 ? r / held.law.bound() : 0;
 }
 
 }  // namespace

@@ -6,8 +6,8 @@
 
 using namespace dotyk;
 using beam::Beam;
-using problem::SupportLaw;
-using Kind = SupportLaw::Kind;
+using problem::LawChoice;
+namespace laws = dotyk::problem::laws;
 using test::kFree;
 using test::kHeld;
 
@@ -97,7 +97,7 @@ TEST_CASE("a stiffness that varies: a cantilever thinning to its tip") {
   };
   double last = 0;
   for (const int cells : {4, 8, 16, 32}) {
-    Beam b = test::beam_between(L, 1, 0, kHeld, kHeld, {Kind::load, F, 0}, kFree);
+    Beam b = test::beam_between(L, 1, 0, kHeld, kHeld, {&laws::load, F, 0}, kFree);
     b.EJ_of = [&](double x) { return 1 + L - x; };
     b.cells = cells;
     const double error = std::abs(test::only(b)->deflection(L) - exact(L));
@@ -153,7 +153,7 @@ TEST_CASE("beams that are none are refused") {
   refused([](Beam& b) { b.EJ_of = [](double x) { return x - 0.5; }; }, "EJ is -0.49938 at x = 0.000620471; it must be positive");
   refused([](Beam& b) { b.loads = {{2, 1, 0}}; }, "a load is at x = 2; the beam goes from 0 to 1");
   refused([](Beam& b) { b.supports[1].x = 0; }, "the supports left and right are at one point");
-  refused([](Beam& b) { b.supports[1].deflection = {Kind::elastic, -3, 0}; }, "elastic law: the number is -3; it must be zero or positive, and finite");
+  refused([](Beam& b) { b.supports[1].deflection = {&laws::elastic, -3, 0}; }, "elastic law: k is -3; it must be zero or positive, and finite");
   refused([](Beam& b) { b.q = NAN; }, "its load is nan");
   refused([](Beam& b) { b.cells = 1001; }, "it has 1001 cells; rounding grows as the fourth power of their number, and 1000 leave it 1e-6");
   refused([](Beam& b) { b.q = 0, b.supports.clear(); }, "nothing holds it, and nothing loads it");

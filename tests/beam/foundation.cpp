@@ -13,8 +13,8 @@
 using namespace dotyk;
 using beam::Beam;
 using beam::Foundation;
-using problem::SupportLaw;
-using Kind = SupportLaw::Kind;
+using problem::LawChoice;
+namespace laws = dotyk::problem::laws;
 using test::kEJ;
 using test::kFree;
 using test::kHeld;
@@ -24,9 +24,9 @@ namespace {
 
 constexpr double kLambda = 1.5, kStiffness = 4 * kEJ * kLambda * kLambda * kLambda * kLambda, kForce = 0.8;
 
-void found(Beam& b, const SupportLaw& law, double at = 0) { b.foundation.assign(beam::nodes(b).size(), Foundation{law, at}); }
+void found(Beam& b, const LawChoice& law, double at = 0) { b.foundation.assign(beam::nodes(b).size(), Foundation{law, at}); }
 
-Beam loose(double length, int cells, const SupportLaw& law) {
+Beam loose(double length, int cells, const LawChoice& law) {
   Beam b = test::beam_between(length, kEJ, 0, kFree, kFree, kFree, kFree);
   b.cells = cells;
   b.loads = {{length / 2, -kForce, 0}};
@@ -103,7 +103,7 @@ TEST_CASE("Winkler's foundation under a finite beam, of order 2; under a long on
   const Hetenyi exact(1);
   double before = 0;
   for (const int cells : {16, 32, 64, 128}) {
-    const auto s = only(loose(2, cells, {Kind::elastic, kStiffness}));
+    const auto s = only(loose(2, cells, {&laws::elastic, kStiffness}));
     const double now = error(*s, exact);
     CAPTURE(now);
     if (before > 0) CHECK(before / now == doctest::Approx(4).epsilon(0.05));
@@ -113,7 +113,7 @@ TEST_CASE("Winkler's foundation under a finite beam, of order 2; under a long on
     if (cells == 128) CHECK(s->moment(1.25) == doctest::Approx(exact.moment(0.25)).epsilon(1e-2));
   }
   CHECK(before < 1e-4);
-  const auto s = only(loose(16, 400, {Kind::elastic, kStiffness}));  // λL/2 = 12
+  const auto s = only(loose(16, 400, {&laws::elastic, kStiffness}));  // λL/2 = 12
   CHECK(s->deflection(8) == doctest::Approx(-kForce * kLambda / (2 * kStiffness)).epsilon(1e-4));
   CHECK(s->moment(8) == doctest::Approx(-kForce / (4 * kLambda)).epsilon(1e-3));
 }
@@ -122,7 +122,7 @@ TEST_CASE("without tension the ends lift off: the beam touches over π/λ whatev
   const double half = M_PI / (2 * kLambda);
   const Hetenyi exact(half);
   for (const double factor : {1.0, 50.0}) {
-    Beam b = loose(6, 240, {Kind::one_sided_elastic, kStiffness});
+    Beam b = loose(6, 240, {&laws::one_sided_elastic, kStiffness});
     b.loads[0].force *= factor;
     const auto s = only(b);
     CHECK(s->result().converged);
@@ -146,7 +146,7 @@ TEST_CASE("a clamped beam that meets a rigid floor at depth d: it hangs free ove
   for (const int cells : {60, 240}) {
     Beam b = test::beam_between(L, kEJ, -q, kHeld, kHeld, kHeld, kHeld);
     b.cells = cells;
-    found(b, {Kind::signorini}, -d);
+    found(b, {&laws::signorini}, -d);
     const auto s = only(b);
     CHECK(s->result().converged);
     CHECK(s->deflection(1.5) == doctest::Approx(-d).epsilon(1e-4));
@@ -166,14 +166,14 @@ TEST_CASE("a clamped beam that meets a rigid floor at depth d: it hangs free ove
 
 TEST_CASE("friction holds a beam where it is, a capped foundation bears the load it can, and no more") {
   Beam b = test::beam_between(2, kEJ, -0.6, kFree, kFree, kFree, kFree);
-  found(b, {Kind::friction, 0.7});
+  found(b, {&laws::friction, 0.7});
   CHECK(only(b)->pressure(0.3) == doctest::Approx(0.6).epsilon(0.2));  // with nodes at rest: the fixed-end moments of the cells stay
   CHECK(std::abs(only(b)->deflection(1)) < 1e-5);
-  found(b, {Kind::capped_elastic, kStiffness, 0.7});
+  found(b, {&laws::capped_elastic, kStiffness, 0.7});
   CHECK(only(b)->deflection(0.4) == doctest::Approx(-0.6 / kStiffness).epsilon(1e-2));
-  found(b, {Kind::capped_elastic, kStiffness, 0.5});
+  found(b, {&laws::capped_elastic, kStiffness, 0.5});
   CHECK_THROWS_AS(only(b), InputError);
-  found(b, {Kind::one_sided_elastic, kStiffness});
+  found(b, {&laws::one_sided_elastic, kStiffness});
   b.q = 0.6;
   CHECK_THROWS_AS(only(b), InputError);
 }
@@ -188,22 +188,22 @@ TEST_CASE("every method finds what the foundation bears") {
     CHECK(apart(*only(b, to_the_end(solver::Proximal{})), *exact) < 1e-7);
     return exact;
   };
-  compare(loose(6, 48, {Kind::elastic, kStiffness}));
-  compare(loose(6, 48, {Kind::one_sided_elastic, kStiffness}));
-  compare(loose(6, 48, {Kind::unequal_elastic, kStiffness, 0, kStiffness / 10}));
-  compare(loose(6, 48, {Kind::capped_elastic, kStiffness, 0.4}));
+  compare(loose(6, 48, {&laws::elastic, kStiffness}));
+  compare(loose(6, 48, {&laws::one_sided_elastic, kStiffness}));
+  compare(loose(6, 48, {&laws::unequal_elastic, kStiffness, kStiffness / 10}));
+  compare(loose(6, 48, {&laws::capped_elastic, kStiffness, 0.4}));
   Beam floor = test::beam_between(3, kEJ, -4, kHeld, kHeld, kHeld, kHeld);
-  found(floor, {Kind::signorini}, -0.01);
+  found(floor, {&laws::signorini}, -0.01);
   const auto exact = compare(floor);
   CHECK(apart(*only(floor, solver::InteriorPoint{}), *exact) < 1e-5);
 }
 
 TEST_CASE("a foundation that changes along the beam; nodes moved by supports bear for their cells") {
-  Beam b = loose(2, 20, {Kind::elastic, kStiffness});
-  b.supports.insert(b.supports.begin() + 1, {"inner", 0.63, {Kind::elastic, 1}, kFree});
+  Beam b = loose(2, 20, {&laws::elastic, kStiffness});
+  b.supports.insert(b.supports.begin() + 1, {"inner", 0.63, {&laws::elastic, 1}, kFree});
   const auto x = beam::nodes(b);
   b.foundation.clear();
-  for (const double at : x) b.foundation.push_back({at < 1 ? SupportLaw{Kind::elastic, kStiffness} : SupportLaw{Kind::one_sided_elastic, 2 * kStiffness}, 0.01 * at});
+  for (const double at : x) b.foundation.push_back({at < 1 ? LawChoice{&laws::elastic, kStiffness} : LawChoice{&laws::one_sided_elastic, 2 * kStiffness}, 0.01 * at});
   const auto s = only(b);
   double length = 0;
   for (std::size_t i = 0; i < x.size(); ++i) {
@@ -217,7 +217,7 @@ TEST_CASE("a foundation that changes along the beam; nodes moved by supports bea
 }
 
 TEST_CASE("foundations that cannot be are refused, with what they contradict") {
-  const auto why = [](Beam b, const SupportLaw& law, double at = 0) {
+  const auto why = [](Beam b, const LawChoice& law, double at = 0) {
     found(b, law, at);
     try {
       only(b);
@@ -227,14 +227,14 @@ TEST_CASE("foundations that cannot be are refused, with what they contradict") {
     return std::string("nothing");
   };
   const Beam held = test::beam_between(2, kEJ, -1, kHeld, kFree, kHeld, kFree);
-  CHECK(why(held, {Kind::signorini}, -1) == "nothing");
-  CHECK(why(held, {Kind::signorini}, 0.1).find("contradict each other: deflections 0 and 0.1") != std::string::npos);
-  CHECK(why(held, {Kind::load, 1}).find("loads along the beam are its load") != std::string::npos);
-  CHECK(why(held, {Kind::breaking, 1, 1}).find("capped_elastic") != std::string::npos);
-  CHECK(why(held, {Kind::elastic, -1}).find("zero or positive") != std::string::npos);
-  const Beam stopped = test::beam_between(2, kEJ, -1, {Kind::signorini}, kFree, kHeld, kFree);
-  CHECK(why(stopped, {Kind::signorini}).find("both hold the deflection rigidly") != std::string::npos);
-  CHECK(why(stopped, {Kind::elastic, 3}) == "nothing");
+  CHECK(why(held, {&laws::signorini}, -1) == "nothing");
+  CHECK(why(held, {&laws::signorini}, 0.1).find("contradict each other: deflections 0 and 0.1") != std::string::npos);
+  CHECK(why(held, {&laws::load, 1}).find("loads along the beam are its load") != std::string::npos);
+  CHECK(why(held, {&laws::breaking, 1, 1}).find("capped_elastic") != std::string::npos);
+  CHECK(why(held, {&laws::elastic, -1}).find("zero or positive") != std::string::npos);
+  const Beam stopped = test::beam_between(2, kEJ, -1, {&laws::signorini}, kFree, kHeld, kFree);
+  CHECK(why(stopped, {&laws::signorini}).find("both hold the deflection rigidly") != std::string::npos);
+  CHECK(why(stopped, {&laws::elastic, 3}) == "nothing");
   Beam few = held;
   few.foundation.resize(3);
   CHECK_THROWS_WITH_AS(only(few), "its foundation has 3 laws for 33 nodes", InputError);
@@ -247,7 +247,7 @@ TEST_CASE("a beam far stiffer than its one-sided foundation stands on it as a ri
       for (const double e : {0.4, 1.5, 2.5}) {
         Beam b = test::beam_between(length, EJ, 0, kFree, kFree, kFree, kFree);
         b.cells = cells, b.loads = {{length / 2 + e, -force, 0}};
-        found(b, {Kind::one_sided_elastic, stiffness});
+        found(b, {&laws::one_sided_elastic, stiffness});
         const auto s = only(b);
         INFO(EJ << ", " << cells << " cells, " << e << ": " << s->result().reason);
         CHECK(s->result().converged);

@@ -9,22 +9,22 @@
 #include "solver/rows/proximal.hpp"
 
 using namespace dotyk;
-using problem::SupportLaw;
-using Kind = SupportLaw::Kind;
+using problem::LawChoice;
+namespace laws = dotyk::problem::laws;
 
 namespace {
 
 /// Laws of random stiffness and bound, of one family: Signorini's alone, one-sided springs alone, or mixed with others.
-SupportLaw random_law(test::Random& random, int family) {
+LawChoice random_law(test::Random& random, int family) {
   const double stiffness = std::pow(10, random.between(2, 8)), bound = std::pow(10, random.between(-3, 0));
   const int kind = family == 0 ? 0 : family == 1 ? 1 : random.below(family == 2 ? 2 : 6);
   switch (kind) {
-    case 1: return {Kind::one_sided_elastic, stiffness};
-    case 2: return {Kind::elastic, stiffness / 100};
-    case 3: return {Kind::friction, bound};
-    case 4: return {Kind::capped_elastic, stiffness, bound};
-    case 5: return {Kind::one_sided_friction, bound};
-    default: return {Kind::signorini};
+    case 1: return {&laws::one_sided_elastic, stiffness};
+    case 2: return {&laws::elastic, stiffness / 100};
+    case 3: return {&laws::friction, bound};
+    case 4: return {&laws::capped_elastic, stiffness, bound};
+    case 5: return {&laws::one_sided_friction, bound};
+    default: return {&laws::signorini};
   }
 }
 
@@ -34,9 +34,9 @@ beam::Beam random_beam(test::Random& random, int supports) {
   b.cells = 20 + random.below(80);
   const int family = random.below(4);
   const bool clamped = random.coin();
-  b.supports.push_back({"left", 0, {clamped ? Kind::prescribed : Kind::signorini}, {clamped ? Kind::prescribed : Kind::free}});
+  b.supports.push_back({"left", 0, {clamped ? &laws::prescribed : &laws::signorini}, {clamped ? &laws::prescribed : &laws::free}});
   for (int i = 0; i < supports; ++i) b.supports.push_back({"inner", (i + 0.5 + random.between(-0.2, 0.2)) / supports, random_law(random, family), {}});
-  b.supports.push_back({"right", 1, {Kind::signorini}, {}});
+  b.supports.push_back({"right", 1, {&laws::signorini}, {}});
   const double mean = random.between(0.2, 1), wave = random.between(0, 2), number = random.between(1, 60), phase = random.between(0, 6);
   b.q_of = [=](double x) { return -mean + wave * std::sin(number * x + phase); };
   for (int k = random.below(7); k > 0; --k) b.loads.push_back({random.between(0, 1), random.between(-0.6, 0.4)});
@@ -77,7 +77,7 @@ TEST_CASE("thousands of supports take as many steps as hundreds") {
   for (const int supports : {800, 5000}) {
     beam::Beam b = random_beam(random, supports);
     b.supports.clear();
-    for (int i = 0; i < supports; ++i) b.supports.push_back({"", i / (supports - 1.0), {i % 7 == 0 ? Kind::one_sided_elastic : Kind::signorini, 1e5}, {}});
+    for (int i = 0; i < supports; ++i) b.supports.push_back({"", i / (supports - 1.0), {i % 7 == 0 ? &laws::one_sided_elastic : &laws::signorini, 1e5}, {}});
     b.loads = {{0.3, 0.05}, {0.7, -0.2}};
     const auto s = beam::solve(b, {}, quiet).front().solution;
     check_optimal(*s);
@@ -90,11 +90,11 @@ TEST_CASE("lifted off all of many supports, a beam deflects as one on its ends, 
   for (const int supports : {100, 800, 5000, 9000}) {
     beam::Beam b;
     b.q = -1;
-    b.supports.push_back({"left", 0, {Kind::prescribed}, {Kind::load, 1}});
-    for (int i = 1; i <= supports; ++i) b.supports.push_back({"", i / (supports + 1.0), {Kind::signorini}, {}});
-    b.supports.push_back({"right", 1, {Kind::prescribed}, {}});
+    b.supports.push_back({"left", 0, {&laws::prescribed}, {&laws::load, 1}});
+    for (int i = 1; i <= supports; ++i) b.supports.push_back({"", i / (supports + 1.0), {&laws::signorini}, {}});
+    b.supports.push_back({"right", 1, {&laws::prescribed}, {}});
     for (const double moment : {1.0, 100.0}) {
-      b.supports.front().rotation.value = moment;
+      b.supports.front().rotation.numbers[0] = moment;
       INFO(supports, " supports, moment ", moment);
       const auto s = beam::solve(b, {}, quiet).front().solution;
       REQUIRE_MESSAGE(s->result().converged, s->result().reason);
@@ -115,9 +115,9 @@ TEST_CASE("a force that lifts a beam off many supports is balanced by those it s
     beam::Beam b;
     b.q = -1;
     b.loads = {{0.3333, 5}};
-    b.supports.push_back({"left", 0, {Kind::prescribed}, {}});
-    for (int i = 1; i <= supports; ++i) b.supports.push_back({"", i / (supports + 1.0), {Kind::signorini}, {}});
-    b.supports.push_back({"right", 1, {Kind::prescribed}, {}});
+    b.supports.push_back({"left", 0, {&laws::prescribed}, {}});
+    for (int i = 1; i <= supports; ++i) b.supports.push_back({"", i / (supports + 1.0), {&laws::signorini}, {}});
+    b.supports.push_back({"right", 1, {&laws::prescribed}, {}});
     INFO(supports, " supports");
     const auto s = beam::solve(b, {}, quiet).front().solution;
     REQUIRE_MESSAGE(s->result().converged, s->result().reason);

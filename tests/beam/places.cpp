@@ -8,8 +8,8 @@
 
 using namespace dotyk;
 using beam::Beam;
-using problem::SupportLaw;
-using Kind = SupportLaw::Kind;
+using problem::LawChoice;
+namespace laws = dotyk::problem::laws;
 using test::beam_between;
 using test::kEJ;
 using test::kFree;
@@ -21,7 +21,7 @@ TEST_CASE("a cantilever over a stop at h: u(L) = max(h, qLâ´/8EJ), R = 3EJ (h â
   const double q = -1, rest = q * std::pow(kLength, 4) / (8 * kEJ);
   for (const double h : {-0.9, -0.5, 0.0, 0.3}) {
     CAPTURE(h);
-    Beam b = beam_between(kLength, kEJ, q, kHeld, kHeld, {Kind::signorini}, kFree);
+    Beam b = beam_between(kLength, kEJ, q, kHeld, kHeld, {&laws::signorini}, kFree);
     b.supports[1].deflection_at = h;
     const auto s = only(b);
     CHECK(s->deflection(kLength) == doctest::Approx(std::max(h, rest)).epsilon(1e-10));
@@ -34,7 +34,7 @@ TEST_CASE("a stop for the slope of a simply supported beam at g: u'(0) = min(g, 
   const double q = 1, rest = q * std::pow(kLength, 3) / (24 * kEJ);
   for (const double g : {-0.1, 0.05, 0.2}) {
     CAPTURE(g);
-    Beam b = beam_between(kLength, kEJ, q, kHeld, {Kind::signorini}, kHeld, kFree);
+    Beam b = beam_between(kLength, kEJ, q, kHeld, {&laws::signorini}, kHeld, kFree);
     b.supports[0].rotation_at = g;
     const auto s = only(b);
     CHECK(s->rotation(0) == doctest::Approx(std::min(g, rest)).epsilon(1e-10));
@@ -44,15 +44,15 @@ TEST_CASE("a stop for the slope of a simply supported beam at g: u'(0) = min(g, 
 
 TEST_CASE("places that are a rigid motion move the beam by it: reactions, energy and what is broken stay") {
   const double up = 0.4, turn = -0.15;
-  for (const Kind kind : {Kind::prescribed, Kind::elastic, Kind::one_sided_elastic, Kind::signorini, Kind::friction, Kind::one_sided_friction, Kind::capped_elastic,
-                          Kind::unequal_elastic, Kind::breaking})
+  for (const problem::LawSpec* kind : {&laws::prescribed, &laws::elastic, &laws::one_sided_elastic, &laws::signorini, &laws::friction, &laws::one_sided_friction, &laws::capped_elastic,
+                          &laws::unequal_elastic, &laws::breaking})
     for (const double q : {-1.0, -0.3}) {
-      const SupportLaw law{kind, kind == Kind::prescribed ? 0.01 : 1.5, 0.4, 0.7};
-      Beam still = beam_between(kLength, kEJ, q, {Kind::elastic, 20}, law, law, law);
-      still.supports.insert(still.supports.begin() + 1, {"middle", 0.7, law, {Kind::elastic, 0.3}});
+      const LawChoice law{kind, kind == &laws::prescribed ? 0.01 : 1.5, 0.4, 0.7};
+      Beam still = beam_between(kLength, kEJ, q, {&laws::elastic, 20}, law, law, law);
+      still.supports.insert(still.supports.begin() + 1, {"middle", 0.7, law, {&laws::elastic, 0.3}});
       Beam moved = still;
       for (beam::Support& s : moved.supports) s.deflection_at = up + turn * s.x, s.rotation_at = turn;
-      CAPTURE(problem::support_name(kind));
+      CAPTURE(kind->words);
       Monitor monitor;
       const auto a = beam::solve(still, {}, monitor), b = beam::solve(moved, {}, monitor);
       CHECK(a.size() == b.size());
@@ -71,7 +71,7 @@ TEST_CASE("places that are a rigid motion move the beam by it: reactions, energy
 }
 
 TEST_CASE("a place that is no number is refused") {
-  Beam b = beam_between(kLength, kEJ, -1, kHeld, kHeld, {Kind::signorini}, kFree);
+  Beam b = beam_between(kLength, kEJ, -1, kHeld, kHeld, {&laws::signorini}, kFree);
   b.supports[1].deflection_at = NAN;
   CHECK_THROWS_AS(only(b), InputError);
 }

@@ -7,8 +7,8 @@
 
 using namespace dotyk;
 using beam::Beam;
-using problem::SupportLaw;
-using Kind = SupportLaw::Kind;
+using problem::LawChoice;
+namespace laws = dotyk::problem::laws;
 using test::beam_between;
 using test::kFree;
 using test::kHeld;
@@ -26,7 +26,7 @@ bool solvable(const Beam& b) {
 }
 
 /// A beam of length 2 under resultants at its ends: ⟨q, 1 − x/L⟩ and ⟨q, x/L⟩, by two forces.
-Beam loaded(double at_left, double at_right, SupportLaw left, SupportLaw left_rotation, SupportLaw right) {
+Beam loaded(double at_left, double at_right, LawChoice left, LawChoice left_rotation, LawChoice right) {
   Beam b = test::beam_between(2, 3, 0, left, left_rotation, right, kFree);
   const double near = at_left - at_right / 3, far = at_right - at_left / 3;  // at L/4 and 3L/4: ¾ and ¼ of each
   b.loads = {{0.5, 9.0 / 8 * near, 0}, {1.5, 9.0 / 8 * far, 0}};
@@ -42,23 +42,23 @@ TEST_CASE("the verdict turns at the limit of each theorem, to 1e-9") {
       CAPTURE(size);
       CAPTURE(off);
       // Theorems 2 and 3: both resultants press.
-      for (const SupportLaw law : {SupportLaw{Kind::signorini, 0, 0}, SupportLaw{Kind::one_sided_elastic, 5, 0}}) {
+      for (const LawChoice law : {LawChoice{&laws::signorini, 0, 0}, LawChoice{&laws::one_sided_elastic, 5, 0}}) {
         CHECK(solvable(loaded(-size, -off * size, law, kFree, law)));
         CHECK_FALSE(solvable(loaded(-size, off * size, law, kFree, law)));
         CHECK_FALSE(solvable(loaded(off * size, -size, law, kFree, law)));
       }
       // Theorem 4: held at the left end, its rotation by friction.
-      CHECK(solvable(loaded(0.3 * size, size, kHeld, {Kind::friction, 2 * size * (1 + off), 0}, kFree)));
-      CHECK_FALSE(solvable(loaded(0.3 * size, size, kHeld, {Kind::friction, 2 * size * (1 - off), 0}, kFree)));
+      CHECK(solvable(loaded(0.3 * size, size, kHeld, {&laws::friction, 2 * size * (1 + off), 0}, kFree)));
+      CHECK_FALSE(solvable(loaded(0.3 * size, size, kHeld, {&laws::friction, 2 * size * (1 - off), 0}, kFree)));
       // Theorem 5: friction at both ends.
-      const SupportLaw enough{Kind::friction, 3 * size, 0};
-      CHECK(solvable(loaded(size, -0.4 * size, {Kind::friction, size * (1 + off), 0}, kFree, enough)));
-      CHECK_FALSE(solvable(loaded(size, -0.4 * size, {Kind::friction, size * (1 - off), 0}, kFree, enough)));
+      const LawChoice enough{&laws::friction, 3 * size, 0};
+      CHECK(solvable(loaded(size, -0.4 * size, {&laws::friction, size * (1 + off), 0}, kFree, enough)));
+      CHECK_FALSE(solvable(loaded(size, -0.4 * size, {&laws::friction, size * (1 - off), 0}, kFree, enough)));
     }
 }
 
 TEST_CASE("what is refused is told: the motion, the resultants, the theorem") {
-  constexpr SupportLaw signorini{Kind::signorini, 0, 0};
+  constexpr LawChoice signorini{&laws::signorini, 0, 0};
   CHECK_THROWS_WITH_AS(test::only(test::beam_between(2, 1, 0.5, signorini, kFree, signorini, kFree)),
                        doctest::Contains("theorem 3"), InputError);
   CHECK_THROWS_WITH_AS(test::only(loaded(-1, 0.5, signorini, kFree, signorini)),
@@ -67,33 +67,33 @@ TEST_CASE("what is refused is told: the motion, the resultants, the theorem") {
 }
 
 TEST_CASE("limits: a stiff one-sided support tends to Signorini's by 1/k, a soft one to none by k; friction to a prescribed deflection") {
-  constexpr SupportLaw signorini{Kind::signorini, 0, 0};
-  const auto with = [&](SupportLaw law) { return test::only(test::beam_between(2, 3, -1, kHeld, kHeld, law, kFree)); };
+  constexpr LawChoice signorini{&laws::signorini, 0, 0};
+  const auto with = [&](LawChoice law) { return test::only(test::beam_between(2, 3, -1, kHeld, kHeld, law, kFree)); };
   const double rigid = with(signorini)->deflection(1), none = with(kFree)->deflection(1);
   double last = 0;
   for (double k = 1e2; k < 1e7; k *= 10) {
-    const double error = std::abs(with({Kind::one_sided_elastic, k, 0})->deflection(1) - rigid);
+    const double error = std::abs(with({&laws::one_sided_elastic, k, 0})->deflection(1) - rigid);
     if (last > 0) CHECK(last / error == doctest::Approx(10).epsilon(0.1));
     last = error;
   }
   last = 0;
   for (double k = 1e-2; k > 1e-7; k /= 10) {
-    const double error = std::abs(with({Kind::elastic, k, 0})->deflection(1) - none);
+    const double error = std::abs(with({&laws::elastic, k, 0})->deflection(1) - none);
     if (last > 0) CHECK(last / error == doctest::Approx(10).epsilon(0.1));
     last = error;
   }
   // From the bound at which it does not slip on, friction is a prescribed deflection.
   const double needed = with(kHeld)->reaction(1).force;
-  CHECK(with({Kind::friction, 1.0001 * needed, 0})->deflection(1) == doctest::Approx(with(kHeld)->deflection(1)).epsilon(1e-9));
+  CHECK(with({&laws::friction, 1.0001 * needed, 0})->deflection(1) == doctest::Approx(with(kHeld)->deflection(1)).epsilon(1e-9));
   for (double bound = 1; bound < 1e13; bound *= 10)
-    CHECK(with({Kind::friction, bound, 0})->deflection(1) == doctest::Approx(with(kHeld)->deflection(1)).epsilon(1e-12));
-  const auto turning = [](SupportLaw law) { return test::only(test::beam_between(2, 3, -1, kHeld, kFree, kHeld, law)); };
+    CHECK(with({&laws::friction, bound, 0})->deflection(1) == doctest::Approx(with(kHeld)->deflection(1)).epsilon(1e-12));
+  const auto turning = [](LawChoice law) { return test::only(test::beam_between(2, 3, -1, kHeld, kFree, kHeld, law)); };
   for (double bound = 1; bound < 1e13; bound *= 10) {
-    const auto held = turning({Kind::friction, bound, 0});
+    const auto held = turning({&laws::friction, bound, 0});
     CHECK(held->result().reason.find("limit") == std::string::npos);
     CHECK(held->deflection(1) == doctest::Approx(turning(kHeld)->deflection(1)).epsilon(1e-12));
   }
-  CHECK(std::abs(with({Kind::friction, 0.9999 * needed, 0})->deflection(2)) > 1e-6);
+  CHECK(std::abs(with({&laws::friction, 0.9999 * needed, 0})->deflection(2)) > 1e-6);
 }
 
 namespace {
@@ -106,11 +106,11 @@ TEST_CASE("verdicts do not depend on the unit of length") {
   for (const double L : {1e-12, 1e-6, 1.0, 1e6, 1e12}) {
     CAPTURE(L);
     for (const double part : {1 - 1e-9, 1 + 1e-9}) {  // theorem 4: the bound against the load's moment L²/2
-      const beam::Beam b = beam_between(L, 1, -1, kHeld, {Kind::friction, part * L * L / 2, 0}, kFree, kFree);
+      const beam::Beam b = beam_between(L, 1, -1, kHeld, {&laws::friction, part * L * L / 2, 0}, kFree, kFree);
       if (part < 1) CHECK_THROWS_AS(beam::solve(b, {}, monitor), InputError);
       else CHECK(beam::solve(b, {}, monitor).front().solution->reaction(0).moment == doctest::Approx(L * L / 2));
     }
-    const beam::Beam pinned = beam_between(L, 1, -1, kHeld, kFree, {Kind::signorini, 0, 0}, kFree);
+    const beam::Beam pinned = beam_between(L, 1, -1, kHeld, kFree, {&laws::signorini, 0, 0}, kFree);
     const auto s = beam::solve(pinned, {}, monitor).front().solution;
     CHECK(s->result().converged);
     CHECK(s->reaction(1).force == doctest::Approx(L / 2));
@@ -134,6 +134,6 @@ TEST_CASE("a support anywhere in a cell costs no digits; two too near to each ot
 }
 
 TEST_CASE("a spring too weak for the numbers is not called a solution") {
-  const beam::Beam b = beam_between(1, 1, -1, kHeld, kFree, {Kind::elastic, 1e-300, 0}, kFree);
+  const beam::Beam b = beam_between(1, 1, -1, kHeld, kFree, {&laws::elastic, 1e-300, 0}, kFree);
   CHECK(!beam::solve(b, {}, monitor).front().solution->result().converged);
 }

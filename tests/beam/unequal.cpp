@@ -13,8 +13,8 @@
 
 using namespace dotyk;
 using beam::Beam;
-using problem::SupportLaw;
-using Kind = SupportLaw::Kind;
+using problem::LawChoice;
+namespace laws = dotyk::problem::laws;
 using test::kEJ;
 using test::kFree;
 using test::kHeld;
@@ -25,10 +25,10 @@ namespace {
 
 constexpr double kPush = 10, kPull = 0.4;
 
-SupportLaw unequal(double push, double pull) { return {Kind::unequal_elastic, push, 0, pull}; }
+LawChoice unequal(double push, double pull) { return {&laws::unequal_elastic, push, pull}; }
 
 /// Every support that the law can be of, between others: at the ends and within.
-Beam on(const SupportLaw& law, double q) {
+Beam on(const LawChoice& law, double q) {
   Beam b = test::beam_between(kLength, kEJ, q, law, law, law, law);
   b.supports.insert(b.supports.begin() + 1, {"middle", 1, law, law});
   b.loads = {{0.5, 0.7, 0}, {1.5, -0.4, 0.3}};
@@ -74,10 +74,10 @@ TEST_CASE("a cantilever's tip on a spring of two stiffnesses, in closed form") {
 TEST_CASE("with equal stiffnesses it is elastic, with one of 0 one-sided elastic") {
   for (const double q : {-1.0, 0.8}) {
     CAPTURE(q);
-    CHECK(difference(*only(on(unequal(5, 5), q)), *only(on({Kind::elastic, 5}, q))) < 1e-12);
-    const beam::Support held{"held", 0.25, {Kind::elastic, 0.5}, {Kind::elastic, 0.5}};
+    CHECK(difference(*only(on(unequal(5, 5), q)), *only(on({&laws::elastic, 5}, q))) < 1e-12);
+    const beam::Support held{"held", 0.25, {&laws::elastic, 0.5}, {&laws::elastic, 0.5}};
     // What pulls alone pushes on the mirrored beam.
-    Beam pulls = on(unequal(0, 5), -q), pushes = on({Kind::one_sided_elastic, 5}, q);
+    Beam pulls = on(unequal(0, 5), -q), pushes = on({&laws::one_sided_elastic, 5}, q);
     for (beam::PointLoad& load : pulls.loads) load.force *= -1, load.moment *= -1;
     for (Beam* b : {&pulls, &pushes}) b->supports.insert(b->supports.begin() + 1, held);
     Beam one = on(unequal(5, 0), q);
@@ -91,22 +91,22 @@ TEST_CASE("with equal stiffnesses it is elastic, with one of 0 one-sided elastic
 TEST_CASE("every method finds the sides, of springs that differ much or little or bear on one side alone") {
   for (const auto& law : {unequal(kPush, kPull), unequal(kPull, kPush), unequal(1e6, 1e-3), unequal(3, 2.999)})
     for (const double q : {-1.0, 0.8, 0.0}) {
-      CAPTURE(law.value);
+      CAPTURE(law.numbers[0]);
       CAPTURE(q);
       const Beam b = on(law, q);
       const auto exact = only(b);
       for (int i = 0; i < 3; ++i) {
         const beam::Reaction r = exact->reaction(i);
-        CHECK(r.force == doctest::Approx(-(r.deflection < 0 ? law.value : law.pull) * r.deflection).epsilon(1e-9));
-        CHECK(r.moment == doctest::Approx(-(r.rotation > 0 ? law.value : law.pull) * r.rotation).epsilon(1e-9));
+        CHECK(r.force == doctest::Approx(-(r.deflection < 0 ? law.numbers[0] : law.numbers[1]) * r.deflection).epsilon(1e-9));
+        CHECK(r.moment == doctest::Approx(-(r.rotation > 0 ? law.numbers[0] : law.numbers[1]) * r.rotation).epsilon(1e-9));
       }
       solver::Pdas full;
       full.reduced = false;
-      CHECK(difference(*only(b, full), *exact) < (law.value > 1e3 ? 1e-7 : 1e-9));  // rounding by the ratio of 1e9
+      CHECK(difference(*only(b, full), *exact) < (law.numbers[0] > 1e3 ? 1e-7 : 1e-9));  // rounding by the ratio of 1e9
       CHECK(difference(*only(b, solver::Newton{}), *exact) < 1e-9);
       CHECK(difference(*only(b, patient(solver::Proximal{})), *exact) < 1e-8);
       CHECK(difference(*only(b, patient(solver::ProjectedCg{})), *exact) < 1e-8);
-      if (law.value > 1e3) continue;  // those below converge with the springs' ratio
+      if (law.numbers[0] > 1e3) continue;  // those below converge with the springs' ratio
       CHECK(difference(*only(b, patient(solver::Psor{})), *exact) < 1e-7);
       CHECK(difference(*only(b, patient(solver::Uzawa{})), *exact) < 1e-7);
     }

@@ -13,22 +13,22 @@
 
 using namespace dotyk;
 using namespace dotyk::figure;
-using problem::SupportLaw;
-using Kind = SupportLaw::Kind;
+using problem::LawChoice;
+namespace laws = dotyk::problem::laws;
 using test::kFree;
 using test::kHeld;
 
 namespace {
 
-const std::vector<SupportLaw> laws{{Kind::free, 0, 0}, {Kind::prescribed, -0.02, 0}, {Kind::load, 0.1, 0}, {Kind::elastic, 5, 0},
-                                   {Kind::one_sided_elastic, 5, 0}, {Kind::signorini, 0, 0}, {Kind::friction, 0.2, 0},
-                                   {Kind::one_sided_friction, 0.2, 0}, {Kind::capped_elastic, 5, 0.1}, {Kind::breaking, 5, 0.2},
-                                   {Kind::unequal_elastic, 5, 0, 2}};
+const std::vector<LawChoice> kLaws{{&laws::free, 0, 0}, {&laws::prescribed, -0.02, 0}, {&laws::load, 0.1, 0}, {&laws::elastic, 5, 0},
+                                   {&laws::one_sided_elastic, 5, 0}, {&laws::signorini, 0, 0}, {&laws::friction, 0.2, 0},
+                                   {&laws::one_sided_friction, 0.2, 0}, {&laws::capped_elastic, 5, 0.1}, {&laws::breaking, 5, 0.2},
+                                   {&laws::unequal_elastic, 5, 2}};
 
-beam::Beam beam_of(const SupportLaw& deflection, const SupportLaw& rotation) {
+beam::Beam beam_of(const LawChoice& deflection, const LawChoice& rotation) {
   beam::Beam b;
   b.cells = 8;
-  const bool pinned = rotation.kind != Kind::free;
+  const bool pinned = !rotation.is(laws::free);
   b.supports = {{"left", 0, kHeld, pinned ? kFree : kHeld}, {"right", 1, pinned ? kHeld : deflection, rotation}};
   return b;
 }
@@ -69,12 +69,12 @@ constexpr Colour frame_ink{30, 30, 30};
 }  // namespace
 
 TEST_CASE("the working point of every law lies on its graph") {
-  for (const SupportLaw& law : laws)
+  for (const LawChoice& law : kLaws)
     for (const double q : {-1.0, 1.0, -0.2})
       for (const LawSide of : {LawSide::deflection, LawSide::rotation}) {
         beam::Beam b = of == LawSide::deflection ? beam_of(law, kFree) : beam_of(kFree, law);
         b.q = q;
-        CAPTURE(problem::support_name(law.kind));
+        CAPTURE(law.spec->words);
         CAPTURE(q);
         for (const beam::Branch& branch : solutions(b)) check_working_point(compose(view(*branch.solution), 1, of, {}));
       }
@@ -83,7 +83,7 @@ TEST_CASE("the working point of every law lies on its graph") {
 TEST_CASE("diagrams begin and end at zero, and jump by what acts at a point") {
   beam::Beam b;
   b.length = 4, b.q = -0.3;
-  b.supports = {{"left", 0, kHeld, kHeld}, {"x = 2", 2, kHeld, {Kind::elastic, 3, 0}}, {"right", 4, {Kind::elastic, 5, 0}, kFree}};
+  b.supports = {{"left", 0, kHeld, kHeld}, {"x = 2", 2, kHeld, {&laws::elastic, 3, 0}}, {"right", 4, {&laws::elastic, 5, 0}, kFree}};
   b.loads = {{1.234, -2, 0}, {3.1, 0, 0.7}};
   const auto s = solutions(b)[0].solution;
   const PagePicture page = compose(view(*s), {BeamPanel::moment, BeamPanel::shear}, {});
@@ -113,39 +113,39 @@ TEST_CASE("diagrams begin and end at zero, and jump by what acts at a point") {
 
 TEST_CASE("what rounding leaves of a diagram that vanishes is not drawn") {
   beam::Beam b;
-  b.supports = {{"left", 0, kHeld, kFree}, {"right", 1, {Kind::prescribed, 0.3, 0}, kFree}};
+  b.supports = {{"left", 0, kHeld, kFree}, {"right", 1, {&laws::prescribed, 0.3, 0}, kFree}};
   const PagePicture page = compose(view(*solutions(b)[0].solution), {BeamPanel::moment, BeamPanel::shear}, {});
   for (const std::size_t row : {0u, 1u})
     for (const double y : diagram(page, row).y) CHECK(y == 0);
 }
 
 TEST_CASE("states of supports") {
-  const auto state = [](const SupportLaw& law, double q) {
+  const auto state = [](const LawChoice& law, double q) {
     beam::Beam b = beam_of(law, kFree);
     b.q = q;
     return std::get<BeamDrawing>(compose(view(*solutions(b)[0].solution), {BeamPanel::deflection}, {}).rows[0][0].drawing).supports[1].below.state;
   };
-  CHECK(state({Kind::signorini, 0, 0}, -1) == SupportState::pushing);
-  CHECK(state({Kind::signorini, 0, 0}, 1) == SupportState::open);
-  CHECK(state({Kind::one_sided_elastic, 5, 0}, -1) == SupportState::pushing);
-  CHECK(state({Kind::one_sided_elastic, 5, 0}, 1) == SupportState::open);
-  CHECK(state({Kind::friction, 1, 0}, -1) == SupportState::stick);  // 3qL/8 < 1
-  CHECK(state({Kind::friction, 0.2, 0}, 1) == SupportState::slip);
-  CHECK(state({Kind::one_sided_friction, 1, 0}, -1) == SupportState::stick);
-  CHECK(state({Kind::one_sided_friction, 0.2, 0}, -1) == SupportState::slip);
-  CHECK(state({Kind::one_sided_friction, 0.2, 0}, 1) == SupportState::open);
-  CHECK(state({Kind::capped_elastic, 5, 0.1}, -1) == SupportState::slip);
-  CHECK(state({Kind::capped_elastic, 5, 1}, -1) == SupportState::acting);
-  CHECK(state({Kind::unequal_elastic, 5, 0, 2}, -1) == SupportState::pushing);
-  CHECK(state({Kind::unequal_elastic, 5, 0, 2}, 1) == SupportState::pulling);
-  CHECK(state({Kind::unequal_elastic, 5, 0, 0}, 1) == SupportState::open);
-  CHECK(state({Kind::unequal_elastic, 5, 0, 2}, 0) == SupportState::acting);
-  CHECK(state({Kind::breaking, 50, 0.01}, -1) == SupportState::broken);
-  CHECK(state({Kind::breaking, 5, 1}, -1) == SupportState::pushing);
+  CHECK(state({&laws::signorini, 0, 0}, -1) == SupportState::pushing);
+  CHECK(state({&laws::signorini, 0, 0}, 1) == SupportState::open);
+  CHECK(state({&laws::one_sided_elastic, 5, 0}, -1) == SupportState::pushing);
+  CHECK(state({&laws::one_sided_elastic, 5, 0}, 1) == SupportState::open);
+  CHECK(state({&laws::friction, 1, 0}, -1) == SupportState::stick);  // 3qL/8 < 1
+  CHECK(state({&laws::friction, 0.2, 0}, 1) == SupportState::slip);
+  CHECK(state({&laws::one_sided_friction, 1, 0}, -1) == SupportState::stick);
+  CHECK(state({&laws::one_sided_friction, 0.2, 0}, -1) == SupportState::slip);
+  CHECK(state({&laws::one_sided_friction, 0.2, 0}, 1) == SupportState::open);
+  CHECK(state({&laws::capped_elastic, 5, 0.1}, -1) == SupportState::slip);
+  CHECK(state({&laws::capped_elastic, 5, 1}, -1) == SupportState::acting);
+  CHECK(state({&laws::unequal_elastic, 5, 2}, -1) == SupportState::pushing);
+  CHECK(state({&laws::unequal_elastic, 5, 2}, 1) == SupportState::pulling);
+  CHECK(state({&laws::unequal_elastic, 5, 0}, 1) == SupportState::open);
+  CHECK(state({&laws::unequal_elastic, 5, 2}, 0) == SupportState::acting);
+  CHECK(state({&laws::breaking, 50, 0.01}, -1) == SupportState::broken);
+  CHECK(state({&laws::breaking, 5, 1}, -1) == SupportState::pushing);
 }
 
 TEST_CASE("symbols of every law stand whole within the frame") {
-  for (const SupportLaw& law : laws)
+  for (const LawChoice& law : kLaws)
     for (const bool rotation : {false, true})
       for (const double q : {-1.0, 0.8}) {
         beam::Beam b = rotation ? beam_of(kFree, law) : beam_of(law, kFree);
@@ -178,7 +178,7 @@ TEST_CASE("symbols of every law stand whole within the frame") {
           }();
           if (e.kind == ElementKind::none) continue;
           const Colour colour = state_colour(e.state);
-          CAPTURE(problem::support_name(law.kind));
+          CAPTURE(law.spec->words);
           CAPTURE(rotation);
           CAPTURE(turned);
           int seen = 0, at_rim = 0;
@@ -219,14 +219,14 @@ TEST_CASE("beams of any size, without load, and at small sizes of the picture ar
   for (const double length : {1e-3, 1.0, 1e3})
     for (const double EJ : {1e-6, 1.0, 1e6})
       for (const double q : {0.0, -1e-3, 5e6}) {
-        beam::Beam b = beam_of({Kind::elastic, 1, 0}, kFree);
+        beam::Beam b = beam_of({&laws::elastic, 1, 0}, kFree);
         b.length = b.supports[1].x = length, b.EJ = EJ, b.q = q;
         PagePicture page = compose(view(*solutions(b)[0].solution), {BeamPanel::deflection, BeamPanel::moment, BeamPanel::shear}, {"m", "N"});
         page.file = "sizes.png", page.width = 400, page.height = 360;
         CHECK(message_of([&] { draw(page); }) == "");
         CHECK(white_rim(read_png("sizes.png")));
       }
-  for (const SupportLaw& law : laws)
+  for (const LawChoice& law : kLaws)
     for (const LawSide of : {LawSide::deflection, LawSide::rotation}) {
       PagePicture page = compose(law, of, {});
       page.file = "law.png";
@@ -237,7 +237,7 @@ TEST_CASE("beams of any size, without load, and at small sizes of the picture ar
 }
 
 TEST_CASE("pages that cannot be drawn are refused") {
-  PagePicture page = compose({Kind::elastic, 1, 0}, LawSide::deflection, {});
+  PagePicture page = compose({&laws::elastic, 1, 0}, LawSide::deflection, {});
   page.file = "page.png";
   page.rows.push_back({});
   CHECK(message_of([&] { draw(page); }).find("a weight of each") != std::string::npos);

@@ -12,18 +12,18 @@
 
 using namespace dotyk;
 using namespace dotyk::figure;
-using problem::SupportLaw;
-using Kind = SupportLaw::Kind;
+using problem::LawChoice;
+namespace laws = dotyk::problem::laws;
 using test::kHeld;
 
 namespace {
 
-plate::LawField everywhere(const SupportLaw& law) {
+plate::LawField everywhere(const LawChoice& law) {
   return [law](double, double) { return law; };
 }
 
 // The unit square under f; the same law along every side.
-plate::Plate square_model(int n, double f, const SupportLaw& deflection, const SupportLaw& rotation = {}) {
+plate::Plate square_model(int n, double f, const LawChoice& deflection, const LawChoice& rotation = {}) {
   const double from[2] = {0, 0}, to[2] = {1, 1};
   const int cells[2] = {n, n};
   const mesh::Grading even[2];
@@ -48,14 +48,14 @@ double carried(const PlatePicture& p) {
   return sum;
 }
 
-constexpr SupportLaw stop{Kind::signorini, 0, 0, 0};
+constexpr LawChoice stop{&laws::signorini, 0, 0, 0};
 
 }  // namespace
 
 TEST_CASE("reactions drawn along the edges and at the corners carry the load") {
   // What a strip carries beside a corner is extrapolated: the sum is right to first order at least.
   for (const plate::Element element : {plate::Element::morley, plate::Element::hct})
-    for (const SupportLaw& law : {kHeld, stop}) {
+    for (const LawChoice& law : {kHeld, stop}) {
       double error[2];
       for (const int fine : {0, 1}) {
         const int n = fine ? 16 : 8;
@@ -132,9 +132,9 @@ TEST_CASE("the factor makes the greatest deflection 8 to 20 % of the size") {
 TEST_CASE("plates on everything are drawn") {
   plate::Plate p = square_model(12, -1, stop);
   p.edges[1].deflection = everywhere(kHeld), p.edges[1].rotation = everywhere(kHeld);
-  p.edges[2].deflection = everywhere({Kind::friction, 0.2, 0, 0});
+  p.edges[2].deflection = everywhere({&laws::friction, 0.2, 0, 0});
   p.edges.erase(p.edges.begin());  // a free side
-  p.supports = {{0.3, 0.3, stop}, {0.6, 0.7, {Kind::elastic, 100, 0, 0}}};
+  p.supports = {{0.3, 0.3, stop}, {0.6, 0.7, {&laws::elastic, 100, 0, 0}}};
   p.obstacle = [](double x, double y) { return x < 0.5 ? -0.001 : y < 0.2 ? -INFINITY : -1e6; };
   const auto s = solved(p);
   PlatePicture picture = compose(*s, {});
@@ -165,7 +165,7 @@ TEST_CASE("one part all around is drawn as its four sides are") {
 
 TEST_CASE("no edge bears more than its friction") {
   plate::Plate p = square_model(12, -1, kHeld);
-  p.edges[2].deflection = everywhere({Kind::friction, 0.2, 0, 0});
+  p.edges[2].deflection = everywhere({&laws::friction, 0.2, 0, 0});
   int slipping = 0;
   for (const PlateEdge& e : compose(*solved(p), {}).boundary)
     for (const EdgeSample& s : e.samples) {
@@ -189,7 +189,7 @@ TEST_CASE("edges and point supports carry the load where rows reach what is held
   for (const plate::Element element : {plate::Element::morley, plate::Element::hct}) {
     plate::Plate p = square_model(8, -1, kHeld);
     p.element = element;
-    p.supports = {{0.95, 0.52, {Kind::prescribed, 0.01, 0, 0}}};
+    p.supports = {{0.95, 0.52, {&laws::prescribed, 0.01, 0, 0}}};
     CHECK(total(*solved(p)) == doctest::Approx(1).epsilon(1e-9));
     const double centre[2] = {0, 0};
     p.supports.clear();

@@ -16,7 +16,7 @@
 
 using namespace dotyk;
 using namespace dotyk::figure;
-using Kind = problem::SupportLaw::Kind;
+namespace laws = dotyk::problem::laws;
 using Place = std::array<double, 2>;
 
 namespace read_back {
@@ -219,7 +219,7 @@ TEST_CASE("the ground of springs stays, what does not act stays with it") {
   std::erase_if(patch.facets, [&](mesh::Facet f) { return strip->mesh->facet_centre(f)[0] > 0.1; });
   patch.name = "patch";
   scene::slide(left);
-  scene::support(bottom, {Kind::one_sided_elastic, 1.7}, {});
+  scene::support(bottom, {&laws::one_sided_elastic, 1.7}, {});
   scene::pressure(patch, [](const mesh::Point&) { return 0.5; });
   const auto s = scene::make_scene({strip});
   const auto solution = solved(s);
@@ -317,7 +317,7 @@ TEST_CASE("a stop stands where it is, and a working point has the colour of its 
   const auto beam = [&](double force) {
     beam::Beam b;
     b.cells = 8;
-    b.supports = {{"left", 0, test::kHeld, test::kHeld}, {"x = 0.5", 0.5, {Kind::signorini, 0, 0}, test::kFree, -0.02}, {"right", 1, {Kind::elastic, 5, 0}, test::kFree, 0.01}};
+    b.supports = {{"left", 0, test::kHeld, test::kHeld}, {"x = 0.5", 0.5, {&laws::signorini, 0, 0}, test::kFree, -0.02}, {"right", 1, {&laws::elastic, 5, 0}, test::kFree, 0.01}};
     b.loads = {{1, force, 0}};
     return beam::solve(b, {}, quiet)[0].solution;
   };

@@ -12,9 +12,9 @@
 
 using namespace dotyk;
 using namespace dotyk::figure;
-using problem::SupportLaw;
+using problem::LawChoice;
 using thermoelastic::Stepping;
-using Kind = SupportLaw::Kind;
+namespace laws = dotyk::problem::laws;
 using test::kFree;
 using test::kHeld;
 
@@ -40,9 +40,9 @@ struct Given {
 Given warmed() {
   Given g;
   g.data.length = 2, g.data.E = 1e4, g.data.expansion = 1e-3, g.data.exchange_above = 2, g.data.exchange_below = 1;
-  g.data.supports = {{"left", 0, {Kind::elastic, 40, 0}, {Kind::friction, 0.1, 0}, {Kind::signorini, 0, 0}},
-                     {"x = 0.7", 0.7, {Kind::one_sided_elastic, 20, 0}, {Kind::elastic, 1, 0}, {}},
-                     {"right", 2, {Kind::capped_elastic, 50, 0.5}, {Kind::one_sided_elastic, 3, 0}, {Kind::one_sided_elastic, 200, 0}}};
+  g.data.supports = {{"left", 0, {&laws::elastic, 40, 0}, {&laws::friction, 0.1, 0}, {&laws::signorini, 0, 0}},
+                     {"x = 0.7", 0.7, {&laws::one_sided_elastic, 20, 0}, {&laws::elastic, 1, 0}, {}},
+                     {"right", 2, {&laws::capped_elastic, 50, 0.5}, {&laws::one_sided_elastic, 3, 0}, {&laws::one_sided_elastic, 200, 0}}};
   g.loads.ambient_above.constant = 10, g.loads.transverse.constant = -2, g.loads.axial.constant = 3;
   return g;
 }
@@ -69,7 +69,7 @@ TEST_CASE("without expansion a thermoelastic beam and a plain one have the same 
     Given g = warmed();
     g.data.expansion = 0, g.data.supports[1].x = 1, g.loads.transverse.constant = q;
     g.data.supports.push_back(g.data.supports[2]);
-    g.data.supports[2] = {"x = 1.5", 1.5, {Kind::load, -0.4, 0}, {Kind::load, 0.3, 0}, {}};
+    g.data.supports[2] = {"x = 1.5", 1.5, {&laws::load, -0.4, 0}, {&laws::load, 0.3, 0}, {}};
     const auto stepped = g.stepped(0.3);
     const Stepping& s = *stepped;
     beam::Beam b = thermoelastic::plain(g.data);

@@ -6,16 +6,16 @@
 using namespace dotyk;
 using plate::Plate;
 using plate::Solution;
-using test::Kind;
+namespace laws = dotyk::problem::laws;
 using test::kElements;
 using test::kFree;
 using test::kHeld;
-using test::SupportLaw;
+using test::LawChoice;
 
 namespace {
 
-const std::vector<SupportLaw> kSideLaws{{Kind::prescribed},         {Kind::prescribed, 0.02}, {Kind::elastic, 4},          {Kind::one_sided_elastic, 4},   {Kind::signorini},
-                                    {Kind::friction, 0.45},     {Kind::one_sided_friction, 0.45}, {Kind::capped_elastic, 4, 0.35}, {Kind::unequal_elastic, 4, 0, 1}};
+const std::vector<LawChoice> kSideLaws{{&laws::prescribed},         {&laws::prescribed, 0.02}, {&laws::elastic, 4},          {&laws::one_sided_elastic, 4},   {&laws::signorini},
+                                    {&laws::friction, 0.45},     {&laws::one_sided_friction, 0.45}, {&laws::capped_elastic, 4, 0.35}, {&laws::unequal_elastic, 4, 1}};
 
 /// What supports do to the plate: upwards, and about the lines y = 0 and x = 0 as work on x and y.
 Eigen::Vector3d supported(const Solution& s) {
@@ -49,11 +49,11 @@ Plate mixed(plate::Element element, int n) {
   p.f_of = [](double x, double y) { return -0.5 - x * y * 2; };
   const char* parts[] = {"left", "right", "bottom", "top"};
   for (int side = 0; side < 4; ++side) {
-    const SupportLaw& deflection = kSideLaws[(n + 2 * side) % kSideLaws.size()];
-    const SupportLaw& rotation = kSideLaws[(n / 3 + 4 * side) % kSideLaws.size()];
-    test::support(p, parts[side], deflection, n % 2 == 0 || rotation.kind == Kind::prescribed ? kFree : rotation);
+    const LawChoice& deflection = kSideLaws[(n + 2 * side) % kSideLaws.size()];
+    const LawChoice& rotation = kSideLaws[(n / 3 + 4 * side) % kSideLaws.size()];
+    test::support(p, parts[side], deflection, n % 2 == 0 || rotation.is(laws::prescribed) ? kFree : rotation);
   }
-  p.supports = {{0.52, 0.47, {Kind::one_sided_elastic, 3}}, {0.2, 0.9, {Kind::friction, 0.05}}};
+  p.supports = {{0.52, 0.47, {&laws::one_sided_elastic, 3}}, {0.2, 0.9, {&laws::friction, 0.05}}};
   return p;
 }
 
@@ -94,7 +94,7 @@ TEST_CASE("Signorini's edge: λ ≥ 0 ≥ x, and one of them 0, in every row") {
     for (const bool round : {true, false}) {
       Plate p = test::plate_on(round ? test::disc(test::Family::p1, 10) : test::rough(12), element);
       p.f_of = [round](double x, double y) { return -1 + (round ? 6 : 2) * x * y; };
-      test::support(p, "", {Kind::signorini}, kFree);
+      test::support(p, "", {&laws::signorini}, kFree);
       const auto s = test::solved(p);
       REQUIRE(s->result().converged);
       const algebra::Vector& lambda = s->result().state.lambda;
@@ -130,7 +130,7 @@ TEST_CASE("moments of held edges: half of the load's moment at each clamped end,
 
 TEST_CASE("corners where two parts meet") {
   for (const plate::Element element : kElements) {
-    const auto corner = [&](SupportLaw bottom, SupportLaw right) {
+    const auto corner = [&](LawChoice bottom, LawChoice right) {
       Plate p = test::plate_on(test::rough(6), element, -1);
       test::support(p, "left", kHeld, kHeld);
       test::support(p, "bottom", bottom, kFree);
@@ -138,8 +138,8 @@ TEST_CASE("corners where two parts meet") {
       return test::solved(p);
     };
     // Prescribed outweighs all others.
-    for (const SupportLaw& law : kSideLaws) {
-      if (law.kind == Kind::prescribed && law.value != 0) continue;
+    for (const LawChoice& law : kSideLaws) {
+      if (law.is(laws::prescribed) && law.numbers[0] != 0) continue;
       const auto a = corner(kHeld, law), b = corner(law, kHeld);
       CHECK(std::abs(a->deflection(1, 0)) < 1e-15);
       CHECK(std::abs(b->deflection(1, 0)) < 1e-15);
@@ -148,14 +148,14 @@ TEST_CASE("corners where two parts meet") {
     // Signorini's outweighs friction: an upward load lifts the corner.
     Plate p = test::plate_on(test::rough(6), element, 3);
     test::support(p, "left", kHeld, kHeld);
-    test::support(p, "bottom", {Kind::signorini}, kFree);
-    test::support(p, "right", {Kind::friction, 1e-3}, kFree);
+    test::support(p, "bottom", {&laws::signorini}, kFree);
+    test::support(p, "right", {&laws::friction, 1e-3}, kFree);
     CHECK(test::solved(p)->deflection(1, 0) > 0.01);
     p.f = -3;
     CHECK(std::abs(test::solved(p)->deflection(1, 0)) < (element == plate::Element::morley ? 1e-12 : 1e-3));
   }
   // Morley: springs of two parts act together at their corner, as those of one.
-  for (const SupportLaw& law : kSideLaws) {
+  for (const LawChoice& law : kSideLaws) {
     Plate one = test::plate_on(test::rough(6), plate::Element::morley, -1), four = one;
     test::support(one, "", law, kFree);
     for (const char* part : {"left", "right", "bottom", "top"}) test::support(four, part, law, kFree);
@@ -175,9 +175,9 @@ TEST_CASE("loads that vary along an edge are told as they act: with what holds t
   for (const plate::Element element : kElements)
     for (const int n : {4, 8}) {
       Plate p = test::plate_on(test::rough(n), element);
-      test::support(p, "bottom", {Kind::prescribed}, {Kind::prescribed});
+      test::support(p, "bottom", {&laws::prescribed}, {&laws::prescribed});
       test::support(p, "top", kFree, kFree);
-      p.edges.back().deflection = [](double x, double) { return SupportLaw{Kind::load, -std::pow(x, 4)}; };
+      p.edges.back().deflection = [](double x, double) { return LawChoice{&laws::load, -std::pow(x, 4)}; };
       const auto s = test::solved(p);
       double top = 0;
       for (const auto& piece : plate::reaction(*s, 1).pieces)

@@ -4,7 +4,7 @@
 
 using namespace dotyk;
 using namespace dotyk::plate;
-using test::Kind;
+namespace laws = dotyk::problem::laws;
 using test::kD;
 using test::kElements;
 using test::kFree;
@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kR = 2, kQ = -1.5, kPi = std::numbers::pi;
 
-Plate disc(Element element, int cells, test::SupportLaw rotation, double load) {
+Plate disc(Element element, int cells, test::LawChoice rotation, double load) {
   Plate p = test::plate_on(test::disc(test::Family::p1, cells, 0.4, -0.7, kR), element, load);
   p.D = kD, p.nu = kNu;
   test::support(p, "boundary", kHeld, rotation);
@@ -97,7 +97,7 @@ TEST_CASE("a round plate that turns about its edge against springs: between supp
   const double c = -(moment + k * slope) / (2 * kD * (1 + kNu) + 2 * k * kR);
   const double exact = -c * kR * kR - kQ * std::pow(kR, 4) / (64 * kD);
   for (const Element element : kElements) {
-    const auto seen = observed([&](int cells) { return disc(element, cells, {Kind::elastic, k}, kQ); }, exact);
+    const auto seen = observed([&](int cells) { return disc(element, cells, {&laws::elastic, k}, kQ); }, exact);
     CAPTURE(seen.error);
     CHECK(seen.error < 2e-3);
     CHECK(seen.order > 1.8);

@@ -5,11 +5,11 @@
 using namespace dotyk;
 using plate::Plate;
 using plate::Solution;
-using test::Kind;
+namespace laws = dotyk::problem::laws;
 using test::kElements;
 using test::kFree;
 using test::kHeld;
-using test::SupportLaw;
+using test::LawChoice;
 
 namespace {
 
@@ -35,8 +35,8 @@ void check_family(const Solution& s, double from, double to) {
 std::shared_ptr<const Solution> auxiliary(Plate p, double per_length) {
   p.edges.clear();
   p.obstacle = {};
-  test::support(p, "", {Kind::load, per_length}, kHeld);
-  p.supports = {{0.5, 0.5, {Kind::prescribed}}};
+  test::support(p, "", {&laws::load, per_length}, kHeld);
+  p.supports = {{0.5, 0.5, {&laws::prescribed}}};
   return test::solved(p);
 }
 
@@ -52,7 +52,7 @@ void check_same_but_for_motion(const Solution& a, const Solution& b) {
 
 TEST_CASE("lemma 10: a load without resultant on a one-sided edge that cannot rotate, w + c with c upwards without end") {
   for (const plate::Element element : kElements)
-    for (const SupportLaw law : {SupportLaw{Kind::signorini}, SupportLaw{Kind::one_sided_elastic, 5}, SupportLaw{Kind::one_sided_friction, 2}})
+    for (const LawChoice law : {LawChoice{&laws::signorini}, LawChoice{&laws::one_sided_elastic, 5}, LawChoice{&laws::one_sided_friction, 2}})
       for (const bool function : {true, false}) {
         CAPTURE(problem::describe(law));
         Plate p = test::plate_on(test::rough(8), element);
@@ -76,7 +76,7 @@ TEST_CASE("(64): a resultant that is all that friction can bear, w + c until the
   for (const plate::Element element : kElements)
     for (const double sign : {-1.0, 1.0}) {
       Plate p = test::plate_on(test::rough(8), element, sign * 4 * 0.3);
-      test::support(p, "", {Kind::friction, 0.3}, kHeld);
+      test::support(p, "", {&laws::friction, 0.3}, kHeld);
       const auto s = test::solved(p);
       check_family(*s, 0, INFINITY);
       CHECK(s->motion(0.5, 0.5) == doctest::Approx(sign));  // on in the load's direction
@@ -88,7 +88,7 @@ TEST_CASE("(64): a resultant that is all that friction can bear, w + c until the
 TEST_CASE("capped springs at their cap everywhere: the plate goes on from where the last one yields") {
   for (const plate::Element element : kElements) {
     Plate p = test::plate_on(test::rough(8), element, -4 * 0.3);
-    test::support(p, "", {Kind::capped_elastic, 10, 0.3}, kHeld);
+    test::support(p, "", {&laws::capped_elastic, 10, 0.3}, kHeld);
     const auto s = test::solved(p);
     check_family(*s, 0, INFINITY);
     CHECK(s->motion(0.5, 0.5) == doctest::Approx(-1));
@@ -99,7 +99,7 @@ TEST_CASE("capped springs at their cap everywhere: the plate goes on from where 
 TEST_CASE("limit cases by point supports: a force over one support, and on the line between two") {
   for (const plate::Element element : kElements) {
     Plate p = test::plate_on(test::rough(8), element);
-    for (const auto& [x, y] : {std::pair(0.1, 0.1), {0.9, 0.1}, {0.1, 0.9}}) p.supports.push_back({x, y, {Kind::signorini}});
+    for (const auto& [x, y] : {std::pair(0.1, 0.1), {0.9, 0.1}, {0.1, 0.9}}) p.supports.push_back({x, y, {&laws::signorini}});
     p.point_loads = {{0.3, 0.1, -1}};
     const auto s = test::solved(p);
     check_family(*s, 0, INFINITY);
@@ -113,7 +113,7 @@ TEST_CASE("limit cases by point supports: a force over one support, and on the l
 
 TEST_CASE("a motion that no support notices, all supports on one line: without end both ways") {
   for (const plate::Element element : kElements)
-    for (const Kind kind : {Kind::prescribed, Kind::signorini}) {
+    for (const problem::LawSpec* kind : {&laws::prescribed, &laws::signorini}) {
       Plate p = test::plate_on(test::rectangle(test::Family::p1, 8, 8), element, -1);
       for (const double y : {0.0, 1.0}) p.supports.push_back({y, y, {kind}});
       const auto s = test::solved(p);
@@ -127,7 +127,7 @@ TEST_CASE("a motion that no support notices, all supports on one line: without e
 TEST_CASE("three one-sided corners, the resultant on the line of two: the third leaves without end") {
   for (const plate::Element element : kElements) {
     Plate p = test::plate_on(test::rectangle(test::Family::p1, 8, 8), element, -1);
-    for (const auto& [x, y] : {std::pair(0.0, 0.0), {1.0, 0.0}, {0.0, 1.0}}) p.supports.push_back({x, y, {Kind::signorini}});
+    for (const auto& [x, y] : {std::pair(0.0, 0.0), {1.0, 0.0}, {0.0, 1.0}}) p.supports.push_back({x, y, {&laws::signorini}});
     const auto s = test::solved(p);
     check_family(*s, 0, INFINITY);
     CHECK(std::abs(plate::point_reaction(*s, 0)) < 1e-9);

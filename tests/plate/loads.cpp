@@ -4,7 +4,7 @@
 
 using namespace dotyk;
 using namespace dotyk::plate;
-using test::Kind;
+namespace laws = dotyk::problem::laws;
 using test::kElements;
 using test::kFree;
 using test::kHeld;
@@ -35,7 +35,7 @@ TEST_CASE("loads bear on the plate with their whole forces and moments") {
     p.f_of = [](double x, double y) { return 1 + x - 2 * y + x * y; };
     p.point_loads = {{0.31, 0.77, 2.5}, {2, 1.5, -1}};
     p.line_loads = {{{-1, 0.2}, {1.3, 1.1}, 0.7}};
-    test::support(p, "left", {Kind::load, 0.4}, {Kind::load, -0.3});
+    test::support(p, "left", {&laws::load, 0.4}, {&laws::load, -0.3});
     const Model model = build(p);
     const Eigen::VectorXd resultants = model.space.motions().transpose() * model.load;
     const Eigen::Vector2d c = model.space.centre();

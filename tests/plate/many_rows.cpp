@@ -6,11 +6,11 @@
 using namespace dotyk;
 using algebra::Vector;
 using plate::Plate;
-using test::Kind;
+namespace laws = dotyk::problem::laws;
 using test::kElements;
 using test::kFree;
 using test::kHeld;
-using test::SupportLaw;
+using test::LawChoice;
 
 // Over an obstacle every vertex has a row. PDAS on the unknowns, begun by an interior point method, against PDAS begun at rest.
 
@@ -18,7 +18,7 @@ namespace {
 
 struct Case {
   const char* name;
-  SupportLaw deflection, rotation;
+  LawChoice deflection, rotation;
   double load = -100, point = 0;  // at (0.3, 0.4)
   plate::Field obstacle = [](double, double) { return -0.1; };
 };
@@ -26,11 +26,11 @@ struct Case {
 const std::vector<Case> kCases{
     {"simply supported", kHeld, kFree},
     {"clamped over a dome", kHeld, kHeld, -100, 0, [](double x, double y) { return -0.01 - std::pow(x - 0.4, 2) - std::pow(y - 0.55, 2); }},
-    {"Signorini's edge", {Kind::signorini}, kFree},
-    {"elastic edge", {Kind::elastic, 50}, kFree},
-    {"one-sided elastic edge, a turning one that slips", {Kind::one_sided_elastic, 500}, {Kind::friction, 1}},
-    {"edge with friction", {Kind::friction, 20}, kFree},
-    {"edge with two stiffnesses", {Kind::unequal_elastic, 100, 0, 20}, kFree},
+    {"Signorini's edge", {&laws::signorini}, kFree},
+    {"elastic edge", {&laws::elastic, 50}, kFree},
+    {"one-sided elastic edge, a turning one that slips", {&laws::one_sided_elastic, 500}, {&laws::friction, 1}},
+    {"edge with friction", {&laws::friction, 20}, kFree},
+    {"edge with two stiffnesses", {&laws::unequal_elastic, 100, 20}, kFree},
     {"lying on it, lifted by a force", kFree, kFree, -1, -10, [](double, double) { return 0.0; }},
     {"lying in a bowl", kFree, kFree, -100, 0, [](double x, double y) { return 0.3 * (std::pow(x - 0.5, 2) + std::pow(y - 0.5, 2)); }},
     {"pressed up by it, without a load", kHeld, kFree, 0, 0, [](double x, double y) { return 0.05 - std::pow(x - 0.5, 2) - std::pow(y - 0.5, 2); }},

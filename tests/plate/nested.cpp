@@ -5,16 +5,16 @@
 
 using namespace dotyk;
 using plate::Plate;
-using test::Kind;
+namespace laws = dotyk::problem::laws;
 using test::kElements;
 using test::kFree;
 using test::kHeld;
-using test::SupportLaw;
+using test::LawChoice;
 
 namespace {
 
 /// A square or a disc whose edge has zones: it lifts or rubs where the load is great.
-Plate zones(plate::Element element, bool round, int cells, SupportLaw deflection, SupportLaw rotation) {
+Plate zones(plate::Element element, bool round, int cells, LawChoice deflection, LawChoice rotation) {
   Plate p = test::plate_on(round ? test::disc(test::Family::p1, cells / 2, 0.5, 0.5, 0.5) : test::rectangle(test::Family::p1, cells, cells), element);
   p.f_of = [](double x, double y) { return -1 + 4 * (x - 0.5) * (y - 0.45) + 0.3 * std::sin(9 * x + 4 * y); };
   test::support(p, "", deflection, rotation);
@@ -29,14 +29,14 @@ solver::Result solve(problem::Problem p, bool nested) {
   return solver::solve(p, pdas, quiet);
 }
 
-const std::pair<SupportLaw, SupportLaw> kLawPairs[] = {{{Kind::signorini}, kFree},
-                                                   {{Kind::signorini}, {Kind::signorini}},
-                                                   {{Kind::friction, 0.35}, kFree},
-                                                   {{Kind::friction, 0.35}, kHeld},
-                                                   {{Kind::one_sided_friction, 0.45}, kFree},
-                                                   {{Kind::capped_elastic, 60, 0.26}, kFree},
-                                                   {{Kind::unequal_elastic, 60, 0, 3}, {Kind::friction, 0.02}},
-                                                   {{Kind::elastic, 60}, {Kind::signorini}}};
+const std::pair<LawChoice, LawChoice> kLawPairs[] = {{{&laws::signorini}, kFree},
+                                                   {{&laws::signorini}, {&laws::signorini}},
+                                                   {{&laws::friction, 0.35}, kFree},
+                                                   {{&laws::friction, 0.35}, kHeld},
+                                                   {{&laws::one_sided_friction, 0.45}, kFree},
+                                                   {{&laws::capped_elastic, 60, 0.26}, kFree},
+                                                   {{&laws::unequal_elastic, 60, 3}, {&laws::friction, 0.02}},
+                                                   {{&laws::elastic, 60}, {&laws::signorini}}};
 
 }  // namespace
 
@@ -70,7 +70,7 @@ TEST_CASE("iterations on all rows of one-sided edges do not grow with their numb
           const solver::Result e = solve(plate::build(zones(element, round, cells, deflection, rotation)).problem, true);
           REQUIRE(e.converged);
           // Without the start on few rows 3, 6, 11 and 22 of the square's with Signorini's law; the barrier method that leaves cycles takes 15 to 40.
-          CHECK(e.iterations <= (deflection.kind == Kind::signorini ? 5 : 60));
+          CHECK(e.iterations <= (deflection.is(laws::signorini) ? 5 : 60));
         }
       }
 }
@@ -78,7 +78,7 @@ TEST_CASE("iterations on all rows of one-sided edges do not grow with their numb
 TEST_CASE("chains follow the edges: every row in one, but for the second of the two slopes at HCT's corners; neighbours next to each other") {
   for (const plate::Element element : kElements) {
     Plate p = test::plate_on(test::rectangle(test::Family::p1, 5, 4), element, -1);
-    test::support(p, "", {Kind::signorini}, {Kind::friction, 1});
+    test::support(p, "", {&laws::signorini}, {&laws::friction, 1});
     const plate::Model m = plate::build(p);
     std::vector<int> seen(m.problem.rows(), 0);
     REQUIRE(m.problem.chains.size() == 2);

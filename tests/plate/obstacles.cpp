@@ -7,7 +7,7 @@
 using namespace dotyk;
 using plate::Plate;
 using plate::Solution;
-using test::Kind;
+namespace laws = dotyk::problem::laws;
 using test::kElements;
 using test::kFree;
 using test::kHeld;
@@ -115,7 +115,7 @@ TEST_CASE("a plate that nothing but an obstacle holds lies flat on it; on a slop
 
 TEST_CASE("an obstacle out of reach bears nothing; edges mind it, and it is none where it is -∞") {
   for (const auto element : kElements) {
-    const auto solved = [&](plate::Field obstacle, test::SupportLaw edge) {
+    const auto solved = [&](plate::Field obstacle, test::LawChoice edge) {
       Plate p = test::plate_on(test::rectangle(test::Family::p1, 8, 8), element, -1);
       p.obstacle = std::move(obstacle);
       test::support(p, "", edge, kFree);
@@ -133,7 +133,7 @@ TEST_CASE("an obstacle out of reach bears nothing; edges mind it, and it is none
     CHECK(half->deflection(0.25, 0.5) > -0.0012);
     CHECK(half->deflection(0.75, 0.5) < -0.0013);
     // Over a block that is higher than Signorini's edge along one side of it the edge stays above the block, not above 0.
-    const auto lifted = solved([](double x, double) { return x > 1 - 1e-9 ? 0.01 : -INFINITY; }, {Kind::signorini});
+    const auto lifted = solved([](double x, double) { return x > 1 - 1e-9 ? 0.01 : -INFINITY; }, {&laws::signorini});
     CHECK(lifted->deflection(1, 0.5) > 0.01 - (element == plate::Element::morley ? 1e-12 : 1e-3));
     CHECK(lifted->deflection(0, 0.5) < 1e-3);
     // … and an obstacle under a free edge bears it.

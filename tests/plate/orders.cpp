@@ -120,7 +120,7 @@ TEST_CASE("orders with deflections and rotations prescribed by functions that ar
           const auto rotation = [exact, side, held](double x, double y) {
             const Jet v = exact(x, y);
             const double along = side.nx * v[1] + side.ny * v[2], bent = side.nx != 0 ? v[3] : v[4];
-            return held ? test::SupportLaw{test::Kind::prescribed, along} : test::SupportLaw{test::Kind::load, kPoisson * (v[3] + v[4]) + (1 - kPoisson) * bent};
+            return held ? test::LawChoice{&laws::prescribed, along} : test::LawChoice{&laws::load, kPoisson * (v[3] + v[4]) + (1 - kPoisson) * bent};
           };
           test::support(p, side.part, test::prescribed([exact](double x, double y) { return exact(x, y)[0]; }), rotation);
         }

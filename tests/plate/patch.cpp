@@ -8,10 +8,10 @@ using namespace dotyk;
 using namespace dotyk::plate;
 using Eigen::Vector2d;
 using test::kD;
-using test::Kind;
+namespace laws = dotyk::problem::laws;
 using test::kElements;
 using test::kNu;
-using test::SupportLaw;
+using test::LawChoice;
 
 namespace {
 
@@ -83,7 +83,7 @@ void check(const Plate& p, const Cubic& exact, double tolerance) {
 }
 
 LawField loaded(std::function<double(double, double)> force) {
-  return [force](double x, double y) { return SupportLaw{Kind::load, force(x, y)}; };
+  return [force](double x, double y) { return LawChoice{&laws::load, force(x, y)}; };
 }
 
 LawField held_deflection(const Cubic& exact) { return test::prescribed([exact](double x, double y) { return exact.u(x, y); }); }
@@ -173,7 +173,7 @@ TEST_CASE("patch test: point supports hold what they are told to, and bear nothi
       load_corner(p, exact, side);
     }
     for (const Vector2d& x : {Vector2d(0.5, 0.4), Vector2d(1.3, 0.7), Vector2d(0.8, 1.1)})
-      p.supports.push_back({x[0], x[1], {Kind::prescribed, exact.u(x[0], x[1])}});
+      p.supports.push_back({x[0], x[1], {&laws::prescribed, exact.u(x[0], x[1])}});
     check(p, exact, 1e-9);
     const auto s = test::solved(p);
     for (int k = 0; k < 3; ++k) CHECK(std::abs(point_reaction(*s, k)) < 1e-9);

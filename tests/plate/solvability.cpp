@@ -6,18 +6,18 @@
 using namespace dotyk;
 using plate::Plate;
 using plate::Solution;
-using test::Kind;
+namespace laws = dotyk::problem::laws;
 using test::kElements;
 using test::kFree;
 using test::kHeld;
-using test::SupportLaw;
+using test::LawChoice;
 
 namespace {
 
 constexpr double kOffs[] = {1e-8, 1e-6, 1e-3, 0.5};
 
 /// P5's plates: an edge of length 4 that cannot rotate, this law for its deflection; two forces of about `size` with this resultant.
-Plate guided(plate::Element element, SupportLaw deflection, double resultant, double size) {
+Plate guided(plate::Element element, LawChoice deflection, double resultant, double size) {
   Plate p = test::plate_on(test::rough(8), element);
   test::support(p, "", deflection, kHeld);
   p.point_loads = {{0.3, 0.4, -size}, {0.71, 0.6, size + resultant}};
@@ -42,17 +42,17 @@ std::string refused(const Plate& p) {
 
 TEST_CASE("P5 (44), (45): one-sided edges that cannot rotate bear loads that press; and (73), (74) elastic ones") {
   for (const plate::Element element : kElements)
-    for (const SupportLaw law : {SupportLaw{Kind::signorini}, SupportLaw{Kind::one_sided_elastic, 5}, SupportLaw{Kind::unequal_elastic, 5, 0, 0}, SupportLaw{Kind::one_sided_friction, 10}})
+    for (const LawChoice law : {LawChoice{&laws::signorini}, LawChoice{&laws::one_sided_elastic, 5}, LawChoice{&laws::unequal_elastic, 5, 0}, LawChoice{&laws::one_sided_friction, 10}})
       for (const double size : {1e-3, 1.0, 1e4})
         for (const double off : kOffs) {
           CAPTURE(problem::describe(law));
           CAPTURE(size);
           CAPTURE(off);
-          if (law.kind == Kind::one_sided_friction && size > 1) continue;  // beyond its bound
+          if (law.is(laws::one_sided_friction) && size > 1) continue;  // beyond its bound
           CHECK(refused(guided(element, law, -off * size, size)) == "");
           const std::string why = refused(guided(element, law, off * size, size));
           CHECK_SAYS(why, "no solution: nothing stops the motion of the whole plate upwards");
-          CHECK_SAYS(why, law.kind == Kind::signorini ? "P5 (45)" : law.kind == Kind::one_sided_friction ? "P5 (63)" : "P5 (74)");
+          CHECK_SAYS(why, law.is(laws::signorini) ? "P5 (45)" : law.is(laws::one_sided_friction) ? "P5 (63)" : "P5 (74)");
         }
 }
 
@@ -60,9 +60,9 @@ TEST_CASE("P5 (62), (63): an edge with friction that cannot rotate bears resulta
   for (const plate::Element element : kElements)
     for (const double sign : {-1.0, 1.0})
       for (const double bound : {1e-3, 1.0, 1e4})
-        for (const Kind kind : {Kind::friction, Kind::capped_elastic})
+        for (const problem::LawSpec* kind : {&laws::friction, &laws::capped_elastic})
           for (const double off : kOffs) {
-            const SupportLaw law = kind == Kind::friction ? SupportLaw{kind, bound} : SupportLaw{kind, 20, bound};
+            const LawChoice law = kind == &laws::friction ? LawChoice{kind, bound} : LawChoice{kind, 20, bound};
             Plate p = test::plate_on(test::rough(8), element, sign * 4 * bound * (1 - off));
             test::support(p, "", law, kHeld);
             CHECK(refused(p) == "");
@@ -95,7 +95,7 @@ TEST_CASE("three point supports bear forces within their triangle, not outside o
     for (const double off : kOffs) {
       if (off > 0.1) continue;
       Plate p = test::plate_on(test::rough(8), element);
-      for (const auto& [x, y] : {std::pair(0.1, 0.1), {0.9, 0.1}, {0.1, 0.9}}) p.supports.push_back({x, y, {Kind::signorini}});
+      for (const auto& [x, y] : {std::pair(0.1, 0.1), {0.9, 0.1}, {0.1, 0.9}}) p.supports.push_back({x, y, {&laws::signorini}});
       p.point_loads = {{0.5 - off, 0.5, -1}};  // the far side is x + y = 1
       CHECK(refused(p) == "");
       p.point_loads = {{0.5 + off, 0.5, -1}};
@@ -111,10 +111,10 @@ TEST_CASE("an edge held in its deflection that turns with friction: the moment a
   for (const plate::Element element : kElements)
     for (const double off : kOffs) {
       Plate p = test::plate_on(test::rough(8), element, -1);
-      test::support(p, "left", kHeld, {Kind::friction, 0.5 * (1 + off)});
+      test::support(p, "left", kHeld, {&laws::friction, 0.5 * (1 + off)});
       CHECK(refused(p) == "");
       p.edges.clear();
-      test::support(p, "left", kHeld, {Kind::friction, 0.5 * (1 - off)});
+      test::support(p, "left", kHeld, {&laws::friction, 0.5 * (1 - off)});
       CHECK_SAYS(refused(p), "no solution");
     }
 }

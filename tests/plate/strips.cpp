@@ -6,9 +6,9 @@
 
 using namespace dotyk;
 using plate::Plate;
-using test::Kind;
+namespace laws = dotyk::problem::laws;
 using test::kD;
-using test::SupportLaw;
+using test::LawChoice;
 
 // With ν = 0 and nothing on its long sides a plate that is loaded and held alike across its width is a beam with EJ = D for each unit of it, with the same
 // laws, but that a rotation is about the outward slope: −u' at the left end.
@@ -17,18 +17,18 @@ namespace {
 
 constexpr double kLength = 2, kWidth = 0.8;
 
-const std::vector<SupportLaw> kLaws{{Kind::free},           {Kind::prescribed, 0.05},         {Kind::load, -0.3},
-                                    {Kind::elastic, 4},     {Kind::one_sided_elastic, 4},     {Kind::signorini},
-                                    {Kind::friction, 0.45}, {Kind::one_sided_friction, 0.45}, {Kind::capped_elastic, 4, 0.35},
-                                    {Kind::unequal_elastic, 4, 0, 1}};
+const std::vector<LawChoice> kLaws{{&laws::free},           {&laws::prescribed, 0.05},         {&laws::load, -0.3},
+                                    {&laws::elastic, 4},     {&laws::one_sided_elastic, 4},     {&laws::signorini},
+                                    {&laws::friction, 0.45}, {&laws::one_sided_friction, 0.45}, {&laws::capped_elastic, 4, 0.35},
+                                    {&laws::unequal_elastic, 4, 1}};
 
 struct Ends {
-  SupportLaw left_deflection, left_rotation, right_deflection, right_rotation;
+  LawChoice left_deflection, left_rotation, right_deflection, right_rotation;
 };
 
 /// A law about −v in place of v.
-SupportLaw turned(SupportLaw law) {
-  if (law.kind == Kind::prescribed || law.kind == Kind::load) law.value = -law.value;
+LawChoice turned(LawChoice law) {
+  if (law.is(laws::prescribed) || law.is(laws::load)) law.numbers[0] = -law.numbers[0];
   return law;
 }
 
@@ -107,29 +107,29 @@ void compare(plate::Element element, const Ends& ends, Counted& counted) {
 
 TEST_CASE("strips with laws at both ends are beams: HCT has their cubics exactly") {
   Counted counted;
-  for (const SupportLaw& left_deflection : kLaws)
-    for (const SupportLaw& left_rotation : kLaws) {
-      if (problem::directed(left_rotation.kind)) continue;  // turned about, below
-      for (const SupportLaw& right_deflection : {SupportLaw{Kind::load, -0.4}, SupportLaw{Kind::load, 0.4}, SupportLaw{Kind::prescribed, 0.03}, SupportLaw{Kind::elastic, 2}})
-        for (const SupportLaw& right_rotation : {SupportLaw{Kind::free}, SupportLaw{Kind::load, 0.5}, SupportLaw{Kind::load, -0.5}})
+  for (const LawChoice& left_deflection : kLaws)
+    for (const LawChoice& left_rotation : kLaws) {
+      if (left_rotation->directed()) continue;  // turned about, below
+      for (const LawChoice& right_deflection : {LawChoice{&laws::load, -0.4}, LawChoice{&laws::load, 0.4}, LawChoice{&laws::prescribed, 0.03}, LawChoice{&laws::elastic, 2}})
+        for (const LawChoice& right_rotation : {LawChoice{&laws::free}, LawChoice{&laws::load, 0.5}, LawChoice{&laws::load, -0.5}})
           compare(plate::Element::hct, {left_deflection, left_rotation, right_deflection, right_rotation}, counted);
     }
-  for (const SupportLaw& right_rotation : kLaws)
-    for (const SupportLaw& left_deflection : kLaws)
+  for (const LawChoice& right_rotation : kLaws)
+    for (const LawChoice& left_deflection : kLaws)
       for (const double force : {-0.4, 0.4})
         for (const double moment : {-0.6, 0.6})
-          compare(plate::Element::hct, {left_deflection, {Kind::load, moment}, {Kind::load, force}, right_rotation}, counted);
+          compare(plate::Element::hct, {left_deflection, {&laws::load, moment}, {&laws::load, force}, right_rotation}, counted);
   CHECK(counted.compared > 450);
   CHECK(counted.refused > 100);
   CHECK(counted.not_unique < 50);
 }
 
 TEST_CASE("a strip turned end for end is the same") {
-  for (const SupportLaw& deflection : kLaws)
-    for (const SupportLaw& rotation : kLaws)
+  for (const LawChoice& deflection : kLaws)
+    for (const LawChoice& rotation : kLaws)
       for (const double force : {-0.4, 0.4})
         for (const double moment : {-0.6, 0.6}) {
-          const SupportLaw f{Kind::load, force}, m{Kind::load, moment};
+          const LawChoice f{&laws::load, force}, m{&laws::load, moment};
           const auto a = tried([&] { return test::solved(strip(plate::Element::hct, 4, {deflection, rotation, f, m})); });
           const auto b = tried([&] { return test::solved(strip(plate::Element::hct, 4, {f, m, deflection, rotation})); });
           REQUIRE((a == nullptr) == (b == nullptr));
@@ -141,8 +141,8 @@ TEST_CASE("a strip turned end for end is the same") {
 TEST_CASE("strips under a load along them tend to beams with h²") {
   // Clamped at the left end, every pair of laws at the right one.
   for (const plate::Element element : test::kElements)
-    for (const SupportLaw& deflection : kLaws)
-      for (const SupportLaw& rotation : kLaws) {
+    for (const LawChoice& deflection : kLaws)
+      for (const LawChoice& rotation : kLaws) {
         const Ends ends{test::kHeld, test::kHeld, deflection, rotation};
         CAPTURE(std::string(plate::element_name(element)));
         CAPTURE(problem::describe(deflection));

@@ -7,18 +7,18 @@
 #include "problem/support_graph.hpp"
 
 using namespace dotyk::problem;
-using Kind = SupportLaw::Kind;
+namespace laws = dotyk::problem::laws;
 
 namespace {
 
 const GraphWindow window{-2, 2.5, -3, 4};
 
-const std::vector<SupportLaw> laws{{Kind::free, 0, 0}, {Kind::prescribed, -0.7, 0}, {Kind::load, -1.3, 0}, {Kind::elastic, 1.5, 0},
-                                   {Kind::elastic, 0, 0}, {Kind::one_sided_elastic, 1.5, 0}, {Kind::signorini, 0, 0}, {Kind::friction, 0.8, 0},
-                                   {Kind::friction, 0, 0}, {Kind::one_sided_friction, 0.8, 0}, {Kind::capped_elastic, 2, 1.1}, {Kind::capped_elastic, 0, 1},
-                                   {Kind::capped_elastic, 2, 0}, {Kind::breaking, 2, 1.1}, {Kind::breaking, 0, 1}, {Kind::breaking, 0.1, 5},
-                                   {Kind::unequal_elastic, 2, 0, 0.5}, {Kind::unequal_elastic, 0.5, 0, 2},
-                                   {Kind::unequal_elastic, 0, 0, 2}, {Kind::unequal_elastic, 2, 0, 0}};
+const std::vector<LawChoice> kLaws{{&laws::free, 0, 0}, {&laws::prescribed, -0.7, 0}, {&laws::load, -1.3, 0}, {&laws::elastic, 1.5, 0},
+                                    {&laws::elastic, 0, 0}, {&laws::one_sided_elastic, 1.5, 0}, {&laws::signorini, 0, 0}, {&laws::friction, 0.8, 0},
+                                    {&laws::friction, 0, 0}, {&laws::one_sided_friction, 0.8, 0}, {&laws::capped_elastic, 2, 1.1}, {&laws::capped_elastic, 0, 1},
+                                    {&laws::capped_elastic, 2, 0}, {&laws::breaking, 2, 1.1}, {&laws::breaking, 0, 1}, {&laws::breaking, 0.1, 5},
+                                    {&laws::unequal_elastic, 2, 0.5}, {&laws::unequal_elastic, 0.5, 2},
+                                    {&laws::unequal_elastic, 0, 2}, {&laws::unequal_elastic, 2, 0}};
 
 struct OnGraph {
   double v, r;
@@ -37,31 +37,31 @@ std::vector<OnGraph> sample(const std::vector<Curve>& curves) {
 }  // namespace
 
 TEST_CASE("points of a graph satisfy the law by its projection") {
-  for (const SupportLaw& law : laws) {
+  for (const LawChoice& law : kLaws) {
     const auto row = row_law(law);
     for (const auto& [v, r] : sample(graph(law, window).reaction)) {
-      CAPTURE(support_name(law.kind));
+      CAPTURE(law.spec->words);
       CAPTURE(v);
       CAPTURE(r);
       if (!row) {
-        CHECK(r == (law.kind == Kind::load ? law.value : 0));
+        CHECK(r == (law.is(laws::load) ? law.numbers[0] : 0));
         continue;
       }
-      const bool broken = law.kind == Kind::breaking && -law.value * v > law.limit * (1 - 1e-12) && r == 0;
+      const bool broken = law.is(laws::breaking) && -law.numbers[0] * v > law.numbers[1] * (1 - 1e-12) && r == 0;
       if (broken) continue;
-      const double x = (law.kind == Kind::prescribed ? law.value : 0) - v;
+      const double x = (law.is(laws::prescribed) ? law.numbers[0] : 0) - v;
       for (const double rho : {0.1, 1.0, 7.0}) CHECK(row->project(0, r + rho * x, rho).lambda == doctest::Approx(r).epsilon(1e-12).scale(1));
     }
   }
 }
 
 TEST_CASE("a reaction is a negative subgradient of the superpotential") {
-  for (const SupportLaw& law : laws) {
+  for (const LawChoice& law : kLaws) {
     const SupportGraph g = graph(law, window);
-    if (law.kind == Kind::breaking && law.value * law.limit > 0) continue;  // not convex
+    if (law.is(laws::breaking) && law.numbers[0] * law.numbers[1] > 0) continue;  // not convex
     for (const auto& [v, r] : sample(g.reaction))
       for (double w = -2; w <= 2.5; w += 0.125) {
-        CAPTURE(support_name(law.kind));
+        CAPTURE(law.spec->words);
         CAPTURE(v);
         CAPTURE(w);
         CHECK(energy(law, w) >= energy(law, v) - r * (w - v) - 1e-12);
@@ -70,7 +70,7 @@ TEST_CASE("a reaction is a negative subgradient of the superpotential") {
 }
 
 TEST_CASE("where it breaks, a support's superpotential goes on without a step, and the reaction jumps") {
-  const SupportLaw law{Kind::breaking, 2, 1.1};
+  const LawChoice law{&laws::breaking, 2, 1.1};
   const SupportGraph g = graph(law, window);
   REQUIRE(g.reaction.size() == 2);
   REQUIRE(g.jumps.size() == 1);
@@ -83,13 +83,13 @@ TEST_CASE("where it breaks, a support's superpotential goes on without a step, a
   }
   CHECK(energy(law, -0.55) == doctest::Approx(energy(law, -0.5500001)).epsilon(1e-6));
   // One that breaks beyond the window is whole within it.
-  CHECK(graph({Kind::breaking, 0.1, 5}, window).reaction.size() == 1);
+  CHECK(graph({&laws::breaking, 0.1, 5}, window).reaction.size() == 1);
 }
 
 TEST_CASE("graphs and superpotentials cover the window, but where the law forbids displacements") {
-  for (const SupportLaw& law : laws) {
+  for (const LawChoice& law : kLaws) {
     const SupportGraph g = graph(law, window);
-    CAPTURE(support_name(law.kind));
+    CAPTURE(law.spec->words);
     CHECK(g.reaction.front().x.front() == std::max(window.low, g.low));
     CHECK(g.reaction.back().x.back() == std::min(window.high, g.high));
     CHECK(g.energy.x.front() == std::max(window.low, g.low));

@@ -183,7 +183,7 @@ Make founded(int dim) {
     auto b = body("bar", m[0]);
     test::springs(b, "left", {200, 200, 200});
     auto bottom = test::part(b, "bottom");
-    scene::support(bottom, {problem::SupportLaw::Kind::one_sided_elastic, 500}, {});
+    scene::support(bottom, {&problem::laws::one_sided_elastic, 500}, {});
     auto middle = scene::chosen_part(b, "middle", [=](const mesh::Point& x, const mesh::Point& n) { return n[dim - 1] > 0.9 && x[0] > 1 && x[0] < 2; });
     scene::pressure(middle, [](const mesh::Point& x) { return 5 * (x[0] - 1) * (2 - x[0]); });
     return scene::make_scene({b});
@@ -264,7 +264,7 @@ TEST_CASE("on soft springs, of a part or by a law, the estimate is measured by t
         const auto b = test::block("block", dim, mesh::Family::p1, n);
         if (by_law) {
           auto bottom = test::part(b, "bottom");
-          const problem::SupportLaw soft{problem::SupportLaw::Kind::elastic, 1};
+          const problem::LawChoice soft{&problem::laws::elastic, 1};
           scene::support(bottom, soft, soft);
         } else {
           test::springs(b, "bottom", {1, 1, 1});
@@ -287,13 +287,12 @@ TEST_CASE("on soft springs, of a part or by a law, the estimate is measured by t
 }
 
 TEST_CASE("a block that tilts on elastic laws: what these lose by acting at nodes is part of the estimate" * doctest::test_suite("large")) {
-  using Kind = problem::SupportLaw::Kind;
-  const struct { const char* name; problem::SupportLaw (*law)(double k); } cases[] = {
-      {"elastic", [](double k) { return problem::SupportLaw{Kind::elastic, k}; }},
-      {"one-sided", [](double k) { return problem::SupportLaw{Kind::one_sided_elastic, k}; }},
-      {"capped", [](double k) { return problem::SupportLaw{Kind::capped_elastic, k, 1000}; }},
-      {"capped, at its limit in part", [](double k) { return problem::SupportLaw{Kind::capped_elastic, k, 2.5}; }},
-      {"unequal", [](double k) { return problem::SupportLaw{Kind::unequal_elastic, k, 0, k / 2}; }}};
+  const struct { const char* name; problem::LawChoice (*law)(double k); } cases[] = {
+      {"elastic", [](double k) { return problem::LawChoice{&problem::laws::elastic, k}; }},
+      {"one-sided", [](double k) { return problem::LawChoice{&problem::laws::one_sided_elastic, k}; }},
+      {"capped", [](double k) { return problem::LawChoice{&problem::laws::capped_elastic, k, 1000}; }},
+      {"capped, at its limit in part", [](double k) { return problem::LawChoice{&problem::laws::capped_elastic, k, 2.5}; }},
+      {"unequal", [](double k) { return problem::LawChoice{&problem::laws::unequal_elastic, k, k / 2}; }}};
   for (const int dim : {2, 3})
     for (const auto& [name, law] : cases)
       for (const double k : {1.0, 100.0, 1e4}) {
@@ -301,7 +300,7 @@ TEST_CASE("a block that tilts on elastic laws: what these lose by acting at node
           const auto held = [&](int n) {
             const auto b = test::block("block", dim, mesh::Family::p1, n);
             auto bottom = test::part(b, "bottom");
-            scene::support(bottom, law(k), {Kind::elastic, k});
+            scene::support(bottom, law(k), {&problem::laws::elastic, k});
             test::pull(b, "top", [=](const mesh::Point&) { return dim == 2 ? mesh::Point{aside, -1, 0} : mesh::Point{aside, 0, -1}; });
             return solve(scene::make_scene({b}));
           };

@@ -10,7 +10,7 @@
 
 using namespace dotyk;
 using mesh::Point;
-using problem::SupportLaw;
+using problem::LawChoice;
 using Map = std::function<Point(const Point&)>;
 
 namespace {
@@ -51,7 +51,7 @@ std::shared_ptr<scene::Scene> setting(int dimension, mesh::Family family, const 
   given[dimension - 1] = constant(0.01);
   scene::displace(right, given, "press");
   test::springs(upper, "right", {3, 4, 5});
-  scene::support(side, {SupportLaw::Kind::breaking, 10, 2}, {SupportLaw::Kind::friction, 0.2});
+  scene::support(side, {&problem::laws::breaking, 10, 2}, {&problem::laws::friction, 0.2});
   const auto scene = scene::make_scene({lower, upper});
   scene::Discretisation discretisation;
   discretisation.multipliers = multipliers;
@@ -256,7 +256,7 @@ TEST_CASE("handles of the original work with solutions of its designs, and the o
       test::symmetric(upper);
       test::press(upper, "top", 0.7);
       auto side = test::part(lower, "right");
-      scene::support(side, {SupportLaw::Kind::elastic, 10}, {});
+      scene::support(side, {&problem::laws::elastic, 10}, {});
       const auto scene = scene::make_scene({lower, upper});
       scene::add_contact(*scene, test::part(lower, "top"), test::part(upper, "bottom"), {});
       return scene;

@@ -72,7 +72,7 @@ TEST_CASE("weak springs beside a contact that holds take nothing of it, and a la
       const auto force = [&](bool law) {
         const auto b = test::block("lid", 2, mesh::Family::q1, 4, 0, 1000, 0.3);
         test::press(b, "top", 1);
-        if (law) test::support(b, "top", {test::LawKind::elastic, k}, {test::LawKind::elastic, k});
+        if (law) test::support(b, "top", {&laws::elastic, k}, {&laws::elastic, k});
         else test::springs(b, "top", {k, k, 0});
         const auto scene = scene::make_scene({b});
         scene::add_contact(*scene, test::part(b, "bottom"), contact::RigidPlane{{0, 0, 0}, {0, 1, 0}}, {}, false, friction ? test::coulomb(0.3) : scene::Friction{});

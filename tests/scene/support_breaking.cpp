@@ -8,7 +8,7 @@
 
 using namespace dotyk;
 using mesh::Point;
-using test::LawKind;
+namespace laws = dotyk::problem::laws;
 using test::Laws;
 
 namespace {
@@ -19,7 +19,7 @@ constexpr double kStiffness = 40, kLimit = 1.2;
 std::shared_ptr<scene::Body> loaded(double load, int n = 4) {
   const auto block = test::block("block", 2, mesh::Family::p1, n, 0, 30);
   test::fix(block, "left");
-  test::support(block, "bottom", {LawKind::breaking, kStiffness, kLimit});
+  test::support(block, "bottom", {&laws::breaking, kStiffness, kLimit});
   test::pull(block, "top", [=](const Point& x) { return Point{0, -load * x[0], 0}; });
   return block;
 }
@@ -38,7 +38,7 @@ std::vector<std::shared_ptr<scene::Solution>> local_minima(double load) {
   for (int choice = 0; choice < 32; ++choice) {
     const auto body = loaded(load);
     auto& law = body->laws.front();
-    law.normal.limit = 1e9;  // what is whole does not break
+    law.normal.numbers[1] = 1e9;  // what is whole does not break
     for (int k = 0; k < 5; ++k) law.broken.push_back(choice >> k & 1);
     const auto s = test::solve(scene::make_scene({body}));
     if (s->result().converged && consistent(*s)) minima.push_back(s);
@@ -50,7 +50,7 @@ std::vector<std::shared_ptr<scene::Solution>> local_minima(double load) {
 
 TEST_CASE("a foundation that breaks is a one-sided one up to its limit") {
   const auto whole = loaded(0.5), other = loaded(0.5);
-  other->laws.front().normal = {LawKind::one_sided_elastic, kStiffness};
+  other->laws.front().normal = {&laws::one_sided_elastic, kStiffness};
   const auto s = test::solve(scene::make_scene({whole}));
   CHECK(broken(*s) == 0);
   CHECK(test::distance(*s, *test::solve(scene::make_scene({other}))) < 1e-14);

@@ -12,7 +12,7 @@
 
 using namespace dotyk;
 using mesh::Point;
-using test::LawKind;
+namespace laws = dotyk::problem::laws;
 using test::Laws;
 
 namespace {
@@ -41,11 +41,11 @@ scene::Model model_of(const std::shared_ptr<scene::Body>& body) {
 
 TEST_CASE("below the bound friction holds the part as a fixed tangent does") {
   for (const int dimension : {2, 3}) {
-    const auto held = pushed(dimension, {LawKind::elastic, 50}, {}, 0.3);
+    const auto held = pushed(dimension, {&laws::elastic, 50}, {}, 0.3);
     test::fix(held, "bottom", {true, dimension == 3, false});
-    const auto stuck = solve(pushed(dimension, {LawKind::elastic, 50}, {LawKind::friction, 10}, 0.3));
+    const auto stuck = solve(pushed(dimension, {&laws::elastic, 50}, {&laws::friction, 10}, 0.3));
     CHECK(test::distance(*stuck, *solve(held)) < 1e-10);
-    CHECK(test::distance(*solve(pushed(dimension, {LawKind::elastic, 50}, {LawKind::prescribed, 0}, 0.3)), *solve(held)) < 1e-10);
+    CHECK(test::distance(*solve(pushed(dimension, {&laws::elastic, 50}, {&laws::prescribed, 0}, 0.3)), *solve(held)) < 1e-10);
     const auto r = stuck->support(test::part(stuck->scene().bodies[0], "bottom"));
     for (const scene::SupportNode& node : r.nodes) CHECK(node.tangential == problem::Status::stick);
     CHECK(r.force[0] == doctest::Approx(-0.3).epsilon(1e-10));
@@ -58,7 +58,7 @@ TEST_CASE("friction carries up to bound times area, alike in all directions") {
   for (const int dimension : {2, 3})
     for (const double angle : {0.0, 0.5, 0.785398}) {
       if (dimension == 2 && angle > 0) continue;
-      const auto near = solve(pushed(dimension, {LawKind::elastic, 50}, {LawKind::friction, g}, 0.998 * g, angle));
+      const auto near = solve(pushed(dimension, {&laws::elastic, 50}, {&laws::friction, g}, 0.998 * g, angle));
       REQUIRE(near->result().converged);
       int slips = 0;
       for (const scene::SupportNode& node : near->support(test::part(near->scene().bodies[0], "bottom")).nodes) {
@@ -71,7 +71,7 @@ TEST_CASE("friction carries up to bound times area, alike in all directions") {
       }
       CHECK(slips > 0);
       CHECK(test::imbalance(*near, {"bottom"}) < 1e-8);
-      CHECK_THROWS_WITH_AS(solve(pushed(dimension, {LawKind::elastic, 50}, {LawKind::friction, g}, 1.002 * g, angle)),
+      CHECK_THROWS_WITH_AS(solve(pushed(dimension, {&laws::elastic, 50}, {&laws::friction, g}, 1.002 * g, angle)),
                            doctest::Contains("nothing stops 'block': translation along"), InputError);
     }
 }
@@ -81,7 +81,7 @@ TEST_CASE("friction bears a torque up to bound times the sum of the nodes' dista
   for (const int n : {3, 6}) {
     const auto twisted = [&](double torque) {
       const auto block = test::block("block", 3, mesh::Family::q1, n);
-      test::support(block, "bottom", {LawKind::one_sided_elastic, 50}, {LawKind::friction, g});
+      test::support(block, "bottom", {&laws::one_sided_elastic, 50}, {&laws::friction, g});
       // ∫ 6 r² dA = 1
       test::pull(block, "top", [=](const Point& x) { return Point{-6 * torque * (x[1] - 0.5), 6 * torque * (x[0] - 0.5), -40}; });
       const scene::Model model = model_of(block);
@@ -110,7 +110,7 @@ TEST_CASE("friction bears a torque up to bound times the sum of the nodes' dista
 TEST_CASE("friction on a rigid base is given friction of contact with a rigid half-space") {
   for (const int dimension : {2, 3}) {
     const double g = 1.5;
-    const auto law = pushed(dimension, {LawKind::signorini}, {LawKind::friction, g}, 0.9 * g, 0.4, 4);
+    const auto law = pushed(dimension, {&laws::signorini}, {&laws::friction, g}, 0.9 * g, 0.4, 4);
     const auto met = pushed(dimension, {}, {}, 0.9 * g, 0.4, 4);
     met->laws.clear();
     auto with_contact = scene::make_scene({met});
@@ -130,9 +130,9 @@ TEST_CASE("friction on a rigid base is given friction of contact with a rigid ha
 
 TEST_CASE("every method that treats friction gives the same, with a foundation or held along the normal") {
   for (const int dimension : {2, 3})
-    for (const Laws normal : {Laws{LawKind::one_sided_elastic, 20}, Laws{}}) {
-      const auto body = pushed(dimension, normal, {LawKind::friction, 1}, 0.8, 0.4);
-      if (normal.kind == LawKind::free) test::fix(body, "bottom", {false, dimension == 2, dimension == 3});
+    for (const Laws normal : {Laws{&laws::one_sided_elastic, 20}, Laws{}}) {
+      const auto body = pushed(dimension, normal, {&laws::friction, 1}, 0.8, 0.4);
+      if (normal.is(laws::free)) test::fix(body, "bottom", {false, dimension == 2, dimension == 3});
       const auto exact = solve(body);
       CHECK(test::distance(*solve(body, solver::Proximal{}), *exact) < 1e-7);
       CHECK(test::distance(*solve(body, test::patient(solver::UzawaPdas{})), *exact) < 1e-7);
@@ -152,15 +152,15 @@ TEST_CASE("a spring along the tangents bears k times the mean slip, and slides a
     return sum;
   };
   for (const int dimension : {2, 3}) {
-    const auto s = solve(pushed(dimension, {LawKind::elastic, 50}, {LawKind::elastic, k}, 0.7));
+    const auto s = solve(pushed(dimension, {&laws::elastic, 50}, {&laws::elastic, k}, 0.7));
     CHECK(mean_slip(*s) == doctest::Approx(0.7 / k).epsilon(1e-10));
     double work = 0;  // Clapeyron: all is linear
     const auto& f = s->scene().bodies[0]->force;
     for (std::size_t i = 0; i < f.size(); ++i) work += f[i] * s->displacement(0)[i];
     CHECK(s->energy() == doctest::Approx(-0.5 * work).epsilon(1e-11));
   }
-  CHECK(mean_slip(*solve(pushed(2, {LawKind::elastic, 50}, {LawKind::capped_elastic, k, 10}, 0.7))) == doctest::Approx(0.7 / k).epsilon(1e-10));
-  const auto limit = solve(pushed(2, {LawKind::elastic, 50}, {LawKind::capped_elastic, k, g}, 0.98 * g));
+  CHECK(mean_slip(*solve(pushed(2, {&laws::elastic, 50}, {&laws::capped_elastic, k, 10}, 0.7))) == doctest::Approx(0.7 / k).epsilon(1e-10));
+  const auto limit = solve(pushed(2, {&laws::elastic, 50}, {&laws::capped_elastic, k, g}, 0.98 * g));
   const auto nodes = limit->support(test::part(limit->scene().bodies[0], "bottom")).nodes;
   int slips = 0;
   for (const auto& n : nodes) {
@@ -168,12 +168,12 @@ TEST_CASE("a spring along the tangents bears k times the mean slip, and slides a
     CHECK(n.shear[0] == doctest::Approx(-std::min(k * n.slip[0], g)).epsilon(1e-9));
   }
   CHECK(slips > 0);
-  CHECK_THROWS_WITH_AS(solve(pushed(2, {LawKind::elastic, 50}, {LawKind::capped_elastic, k, g}, 1.01 * g)),
+  CHECK_THROWS_WITH_AS(solve(pushed(2, {&laws::elastic, 50}, {&laws::capped_elastic, k, g}, 1.01 * g)),
                        doctest::Contains("nothing stops 'block': translation along x"), InputError);
 }
 
 TEST_CASE("a held normal leaves friction along the part, and held nodes have no rows") {
-  const auto block = pushed(2, {}, {LawKind::friction, 1}, 0.9);
+  const auto block = pushed(2, {}, {&laws::friction, 1}, 0.9);
   test::fix(block, "bottom", {false, true, false});
   const auto s = solve(block);
   REQUIRE(s->result().converged);
@@ -182,14 +182,14 @@ TEST_CASE("a held normal leaves friction along the part, and held nodes have no 
 
   const auto corner = test::block("corner", 2, mesh::Family::p1, 3);
   test::fix(corner, "left");
-  test::support(corner, "bottom", {LawKind::signorini}, {LawKind::friction, 1});
+  test::support(corner, "bottom", {&laws::signorini}, {&laws::friction, 1});
   test::press(corner, "top", 1);
   CHECK(test::imbalance(*solve(corner), {"left", "bottom"}) < 1e-10);
 }
 
 TEST_CASE("in a history friction of a support remembers, as that of contact does") {
   const double g = 1.5;
-  const auto law = pushed(2, {LawKind::signorini}, {LawKind::friction, g}, 0, 0, 4), met = pushed(2, {}, {}, 0, 0, 4);
+  const auto law = pushed(2, {&laws::signorini}, {&laws::friction, g}, 0, 0, 4), met = pushed(2, {}, {}, 0, 0, 4);
   met->laws.clear();
   std::vector<scene::Step> steps;
   for (const auto& b : {law, met}) {

@@ -13,7 +13,7 @@
 
 using namespace dotyk;
 using mesh::Point;
-using test::LawKind;
+namespace laws = dotyk::problem::laws;
 using test::Laws;
 
 namespace {
@@ -46,15 +46,15 @@ TEST_CASE("a block pressed on a foundation sinks in by p/k, alike everywhere") {
   const double p = 2.5, k = 40, E = 210;
   for (const int dimension : {2, 3})
     for (const auto family : test::kAllFamilies)
-      for (const Laws law : {Laws{LawKind::one_sided_elastic, k}, Laws{LawKind::elastic, k}, Laws{LawKind::capped_elastic, k, 3.0},
-                             Laws{LawKind::breaking, k, 3.0}, Laws{LawKind::unequal_elastic, k, 0, 3 * k}}) {
+      for (const Laws law : {Laws{&laws::one_sided_elastic, k}, Laws{&laws::elastic, k}, Laws{&laws::capped_elastic, k, 3.0},
+                             Laws{&laws::breaking, k, 3.0}, Laws{&laws::unequal_elastic, k, 3 * k}}) {
         const auto s = test::solve(pressed(dimension, family, law, p));
         REQUIRE(s->result().converged);
         const auto r = s->support(test::part(s->scene().bodies[0], "bottom"));
         for (const scene::SupportNode& node : r.nodes) {
           CHECK(node.away == doctest::Approx(-p / k).epsilon(1e-11));
           CHECK(node.pressure == doctest::Approx(p).epsilon(1e-11));
-          CHECK(node.status == (law.kind == LawKind::capped_elastic ? problem::Status::stick : problem::Status::closed));
+          CHECK(node.status == (law.is(laws::capped_elastic) ? problem::Status::stick : problem::Status::closed));
           CHECK(std::abs(node.shear[0]) + std::abs(node.shear[1]) + std::abs(node.shear[2]) < 1e-11);
         }
         CHECK(r.area == doctest::Approx(1).epsilon(1e-12));
@@ -70,7 +70,7 @@ TEST_CASE("a block pulled off a foundation of two stiffnesses rises by p/k of th
   const double p = 2.5, k = 40;
   for (const int dimension : {2, 3})
     for (const auto family : test::kAllFamilies) {
-      const auto s = test::solve(pressed(dimension, family, {LawKind::unequal_elastic, 3 * k, 0, k}, -p));
+      const auto s = test::solve(pressed(dimension, family, {&laws::unequal_elastic, 3 * k, k}, -p));
       for (const scene::SupportNode& node : s->support(test::part(s->scene().bodies[0], "bottom")).nodes) {
         CHECK(node.away == doctest::Approx(p / k).epsilon(1e-11));
         CHECK(node.pressure == doctest::Approx(-p).epsilon(1e-11));
@@ -82,19 +82,19 @@ TEST_CASE("a block pulled off a foundation of two stiffnesses rises by p/k of th
 
 TEST_CASE("a foundation that pulls as well as it pushes is elastic, one that does not pull one-sided, one that hardly does nearly so") {
   const auto solved = [](const Laws& law) { return test::solve(eccentric(50, law, 1, 12)); };
-  CHECK(test::distance(*solved({LawKind::unequal_elastic, 20, 0, 20}), *solved({LawKind::elastic, 20})) < 1e-12);
-  const auto one_sided = solved({LawKind::one_sided_elastic, 20});
-  CHECK(test::distance(*solved({LawKind::unequal_elastic, 20, 0, 0}), *one_sided) < 1e-12);
-  const double near = test::distance(*solved({LawKind::unequal_elastic, 20, 0, 1e-3}), *one_sided);
-  const double nearer = test::distance(*solved({LawKind::unequal_elastic, 20, 0, 1e-4}), *one_sided);
+  CHECK(test::distance(*solved({&laws::unequal_elastic, 20, 20}), *solved({&laws::elastic, 20})) < 1e-12);
+  const auto one_sided = solved({&laws::one_sided_elastic, 20});
+  CHECK(test::distance(*solved({&laws::unequal_elastic, 20, 0}), *one_sided) < 1e-12);
+  const double near = test::distance(*solved({&laws::unequal_elastic, 20, 1e-3}), *one_sided);
+  const double nearer = test::distance(*solved({&laws::unequal_elastic, 20, 1e-4}), *one_sided);
   CHECK(near / nearer == doctest::Approx(10).epsilon(0.05));  // the first order in k_pull
 }
 
 TEST_CASE("every method gives the same foundation") {
-  for (const LawKind kind : {LawKind::one_sided_elastic, LawKind::capped_elastic, LawKind::one_sided_friction, LawKind::signorini, LawKind::unequal_elastic}) {
+  for (const problem::LawSpec* kind : {&laws::one_sided_elastic, &laws::capped_elastic, &laws::one_sided_friction, &laws::signorini, &laws::unequal_elastic}) {
     Laws law{kind, 60, 1.9};
-    if (kind == LawKind::one_sided_friction) law.value = 1.9;
-    if (kind == LawKind::unequal_elastic) law.pull = 5;
+    if (kind == &laws::one_sided_friction) law.numbers[0] = 1.9;
+    if (kind == &laws::unequal_elastic) law.numbers[1] = 5;
     const auto scene = eccentric(50, law, 1.2, 10);
     const auto exact = test::solve_by(scene, solver::Pdas{});
     CHECK(test::distance(*test::solve_by(scene, solver::Newton{}), *exact) < 1e-9);
@@ -113,8 +113,8 @@ TEST_CASE("every method gives the same foundation") {
 
 TEST_CASE("methods for linear and unilateral laws alone give the same rigid base") {
   const auto block = test::block("block", 2, mesh::Family::p1, 4);
-  test::support(block, "bottom", {LawKind::signorini}, {LawKind::elastic, 30});
-  test::support(block, "left", {LawKind::elastic, 20});
+  test::support(block, "bottom", {&laws::signorini}, {&laws::elastic, 30});
+  test::support(block, "left", {&laws::elastic, 20});
   test::pull(block, "top", [](const Point& x) { return Point{0.4, 4 - 9 * x[0], 0}; });
   const auto scene = scene::make_scene({block});
   const auto exact = test::solve_by(scene, solver::Pdas{});
@@ -130,7 +130,7 @@ TEST_CASE("methods for linear and unilateral laws alone give the same rigid base
 TEST_CASE("a foundation without tension under a nearly rigid block: the triangle of pressure has length 3(b/2 - e)") {
   const double force = 3, k = 2, b = 2, length = 3 * (b / 2 - b / 4);
   const auto error = [&](int n) {
-    const auto s = test::solve(eccentric(1e6, {LawKind::one_sided_elastic, k}, force, n));
+    const auto s = test::solve(eccentric(1e6, {&laws::one_sided_elastic, k}, force, n));
     REQUIRE(s->result().converged);
     double worst = 0;
     for (const scene::SupportNode& node : s->support(test::part(s->scene().bodies[0], "bottom")).nodes)
@@ -144,10 +144,10 @@ TEST_CASE("a foundation without tension under a nearly rigid block: the triangle
 }
 
 TEST_CASE("stiffer foundations tend to a rigid base with 1/k") {
-  const auto rigid = test::solve(eccentric(50, {LawKind::signorini}, 1, 12));
+  const auto rigid = test::solve(eccentric(50, {&laws::signorini}, 1, 12));
   double last = 0;
   for (const double k : {1e5, 1e6, 1e7}) {
-    const double d = test::distance(*test::solve(eccentric(50, {LawKind::one_sided_elastic, k}, 1, 12)), *rigid);
+    const double d = test::distance(*test::solve(eccentric(50, {&laws::one_sided_elastic, k}, 1, 12)), *rigid);
     if (last > 0) CHECK(last / d == doctest::Approx(10).epsilon(0.02));
     last = d;
   }
@@ -167,7 +167,7 @@ TEST_CASE("a rigid base is contact with a rigid half-space without a gap") {
       return b;
     };
     const auto law = block(), met = block();
-    test::support(law, "bottom", {LawKind::signorini});
+    test::support(law, "bottom", {&laws::signorini});
     auto with_contact = scene::make_scene({met});
     Point up{0, 0, 0};
     up[dimension - 1] = 1;
@@ -183,14 +183,14 @@ TEST_CASE("a rigid base is contact with a rigid half-space without a gap") {
 }
 
 TEST_CASE("prescribed values and loads of laws are displacements and pressures") {
-  for (const auto& [law, tangential] : {std::pair{Laws{LawKind::prescribed, 0.01}, Laws{LawKind::prescribed, -0.02}},
-                                        std::pair{Laws{LawKind::load, 1.5}, Laws{LawKind::load, 0.4}}}) {
+  for (const auto& [law, tangential] : {std::pair{Laws{&laws::prescribed, 0.01}, Laws{&laws::prescribed, -0.02}},
+                                        std::pair{Laws{&laws::load, 1.5}, Laws{&laws::load, 0.4}}}) {
     const auto mine = test::block("block", 2, mesh::Family::p1, 3), other = test::block("block", 2, mesh::Family::p1, 3);
     for (const auto& b : {mine, other}) test::fix(b, "top");
     test::support(mine, "bottom", law, tangential);
     auto bottom = test::part(other, "bottom");
-    const Point value{tangential.value, law.value, 0};  // up is away from the support, x along the tangent
-    if (law.kind == LawKind::load)
+    const Point value{tangential.numbers[0], law.numbers[0], 0};  // up is away from the support, x along the tangent
+    if (law.is(laws::load))
       scene::load(bottom, [=](const Point&) { return value; });
     else
       scene::displace(bottom, {[=](const Point&) { return value[0]; }, [=](const Point&) { return value[1]; }, nullptr});
@@ -198,7 +198,7 @@ TEST_CASE("prescribed values and loads of laws are displacements and pressures")
     CHECK(test::distance(*a, *b) < 1e-12);
     CHECK(a->energy() == doctest::Approx(b->energy()).epsilon(1e-12));
     const Point r = a->reaction(test::part(mine, "bottom")), s = b->reaction(test::part(other, "bottom"));
-    for (int i = 0; i < 2; ++i) CHECK(r[i] == doctest::Approx(law.kind == LawKind::load ? value[i] : s[i]).epsilon(1e-11));
+    for (int i = 0; i < 2; ++i) CHECK(r[i] == doctest::Approx(law.is(laws::load) ? value[i] : s[i]).epsilon(1e-11));
     CHECK(test::imbalance(*a, {"bottom", "top"}) < 1e-12);
   }
 }
@@ -209,7 +209,7 @@ TEST_CASE("turning body, load and support together turns the solution") {
     auto m = test::rectangle(mesh::Family::p1, 4, 3);
     mesh::transform(m, [=](const Point& x) { return Point{c * x[0] - s * x[1], s * x[0] + c * x[1], 0}; });
     const auto block = test::body("block", std::move(m));
-    test::support(block, "bottom", {LawKind::one_sided_elastic, 30}, {LawKind::capped_elastic, 20, 0.25});
+    test::support(block, "bottom", {&laws::one_sided_elastic, 30}, {&laws::capped_elastic, 20, 0.25});
     test::pull(block, "left", [=](const Point&) { return Point{0.2 * c, 0.2 * s, 0}; });
     test::press(block, "top", 1);
     return test::solve(scene::make_scene({block}));
@@ -230,13 +230,13 @@ TEST_CASE("a foundation carries what its law can, and a load beyond is refused w
   const auto refused = [](const Laws& law, double pressure, const char* motion) {
     CHECK_THROWS_WITH_AS(test::solve(pressed(2, mesh::Family::p1, law, pressure)), doctest::Contains(motion), InputError);
   };
-  refused({LawKind::one_sided_elastic, 10}, -1, "nothing stops 'block': translation along y");
-  refused({LawKind::signorini}, -1, "nothing stops 'block': translation along y");
-  refused({LawKind::capped_elastic, 10, 2}, 2.01, "nothing stops 'block': translation along -y");
-  refused({LawKind::capped_elastic, 10, 2}, -2.01, "nothing stops 'block': translation along y");
-  refused({LawKind::friction, 2}, -2.01, "nothing stops 'block': translation along y");
-  refused({LawKind::one_sided_friction, 2}, 2.01, "nothing stops 'block': translation along -y");
-  refused({LawKind::breaking, 10, 2}, 2.01, "after 4 nodes of breaking supports broke: not held: nothing stops 'block': translation along -y");
-  CHECK(test::solve(pressed(2, mesh::Family::p1, {LawKind::capped_elastic, 10, 2}, -1.99))->result().converged);
-  CHECK(test::solve(pressed(2, mesh::Family::p1, {LawKind::one_sided_friction, 2}, 1.99))->result().converged);
+  refused({&laws::one_sided_elastic, 10}, -1, "nothing stops 'block': translation along y");
+  refused({&laws::signorini}, -1, "nothing stops 'block': translation along y");
+  refused({&laws::capped_elastic, 10, 2}, 2.01, "nothing stops 'block': translation along -y");
+  refused({&laws::capped_elastic, 10, 2}, -2.01, "nothing stops 'block': translation along y");
+  refused({&laws::friction, 2}, -2.01, "nothing stops 'block': translation along y");
+  refused({&laws::one_sided_friction, 2}, 2.01, "nothing stops 'block': translation along -y");
+  refused({&laws::breaking, 10, 2}, 2.01, "after 4 nodes of breaking supports broke: not held: nothing stops 'block': translation along -y");
+  CHECK(test::solve(pressed(2, mesh::Family::p1, {&laws::capped_elastic, 10, 2}, -1.99))->result().converged);
+  CHECK(test::solve(pressed(2, mesh::Family::p1, {&laws::one_sided_friction, 2}, 1.99))->result().converged);
 }

@@ -107,7 +107,7 @@ test::ScenePtr before_springs(double level) {
   test::fix(body, "bottom");
   test::pull(body, "left", [=](const Point& x) { return Point{level - 20 * x[1] * x[1], 2, 0}; });
   auto right = test::part(body, "right");
-  scene::support(right, {problem::SupportLaw::Kind::one_sided_elastic, 500}, {});
+  scene::support(right, {&problem::laws::one_sided_elastic, 500}, {});
   return scene::make_scene({body});
 }
 

@@ -13,8 +13,8 @@
 using namespace dotyk;
 using algebra::Vector;
 using Eigen::Vector2d;
-using problem::SupportLaw;
-using Kind = SupportLaw::Kind;
+using problem::LawChoice;
+namespace laws = dotyk::problem::laws;
 
 namespace {
 
@@ -70,7 +70,7 @@ struct Touch {
   int joint, other;
   Vector2d direction;
   double gap;
-  SupportLaw law;
+  LawChoice law;
   double friction = 0;  ///< Coulomb's coefficient
 };
 
@@ -113,19 +113,19 @@ solver::Result solved(const problem::Problem& p, const solver::Method& method = 
 TEST_CASE("two bars over a stop: it bears what the bars do not at its gap") {
   const double h = 0.6, EA = 50, load = 3, gap = 0.01, L = std::sqrt(1 + h * h), k = 2 * EA * h * h / (L * L * L);
   const Truss truss{{{-1, 0}, {0, h}, {1, 0}}, {{0, 1, EA}, {1, 2, EA}}, {0, 2}, {{1, {0, -load}}}};
-  CHECK(solved(touching(truss, {{1, -1, {0, -1}, gap, {Kind::signorini}}})).state.lambda[0] == doctest::Approx(load - k * gap).epsilon(1e-12));
-  CHECK(solved(touching(truss, {{1, -1, {0, -1}, 1.1 * load / k, {Kind::signorini}}})).state.lambda[0] == 0);
-  CHECK(solved(touching(truss, {{1, -1, {0, -1}, 0, {Kind::elastic, k}}})).state.lambda[0] == doctest::Approx(load / 2).epsilon(1e-12));
+  CHECK(solved(touching(truss, {{1, -1, {0, -1}, gap, {&laws::signorini}}})).state.lambda[0] == doctest::Approx(load - k * gap).epsilon(1e-12));
+  CHECK(solved(touching(truss, {{1, -1, {0, -1}, 1.1 * load / k, {&laws::signorini}}})).state.lambda[0] == 0);
+  CHECK(solved(touching(truss, {{1, -1, {0, -1}, 0, {&laws::elastic, k}}})).state.lambda[0] == doctest::Approx(load / 2).epsilon(1e-12));
   // Normal compliance: load − kx = c x².
   const double c = 40, x = (-k + std::sqrt(k * k + 4 * c * load)) / (2 * c);
-  CHECK(solved(touching(truss, {{1, -1, {0, -1}, 0, {.kind = Kind::compliance, .value = c, .power = 2}}})).state.lambda[0] == doctest::Approx(c * x * x).epsilon(1e-9));
+  CHECK(solved(touching(truss, {{1, -1, {0, -1}, 0, {&laws::compliance, {c, 2}}}})).state.lambda[0] == doctest::Approx(c * x * x).epsilon(1e-9));
 }
 
 TEST_CASE("two trusses that touch, and slip with friction: two methods, and the closed form of slip") {
   const double EA = 50, mu = 0.3, push = 2;
   // A vertical bar stands on a block of two bars; its foot slips on them.
   const Truss truss{{{0, 2}, {0, 1}, {-1, 0}, {0, 1}, {1, 0}, {-1, 1}}, {{0, 1, EA}, {2, 3, EA}, {3, 4, EA}, {5, 1, EA}}, {0, 2, 4, 5}, {{1, {1.5, -push}}}};
-  const problem::Problem p = touching(truss, {{1, 3, {0, -1}, 0, {Kind::signorini}, mu}});
+  const problem::Problem p = touching(truss, {{1, 3, {0, -1}, 0, {&laws::signorini}, mu}});
   const auto newton = solved(p, solver::Newton{}), proximal = solved(p, solver::Proximal{});
   CHECK((newton.state.u.here() - proximal.state.u.here()).norm() < 1e-9 * newton.state.u.here().norm());
   CHECK((newton.state.u.here() - solved(p).state.u.here()).norm() == 0);  // the default with friction
@@ -136,13 +136,13 @@ TEST_CASE("two trusses that touch, and slip with friction: two methods, and the 
 
 TEST_CASE("a truss that nothing fixes rests on two stops: statics alone") {
   const Truss truss{{{0, 0}, {2, 0}, {0.5, 1}}, {{0, 1, 10}, {1, 2, 10}, {2, 0, 10}}, {}, {{2, {0, -4}}}};
-  const problem::Problem p = touching(truss, {{0, -1, {0, -1}, 0, {Kind::signorini}}, {1, -1, {0, -1}, 0, {Kind::signorini}}, {0, -1, {1, 0}, 0, {Kind::prescribed}}});
+  const problem::Problem p = touching(truss, {{0, -1, {0, -1}, 0, {&laws::signorini}}, {1, -1, {0, -1}, 0, {&laws::signorini}}, {0, -1, {1, 0}, 0, {&laws::prescribed}}});
   const auto r = solved(p);
   CHECK(r.state.lambda[0] == doctest::Approx(3).epsilon(1e-12));
   CHECK(r.state.lambda[1] == doctest::Approx(1).epsilon(1e-12));
   Monitor quiet;
   Truss tipped = truss;
   tipped.loads = {{2, {8, -4}}};
-  CHECK_THROWS_WITH_AS(solver::solve(touching(tipped, {{0, -1, {0, -1}, 0, {Kind::signorini}}, {1, -1, {0, -1}, 0, {Kind::signorini}}}), {}, {}, quiet),
+  CHECK_THROWS_WITH_AS(solver::solve(touching(tipped, {{0, -1, {0, -1}, 0, {&laws::signorini}}, {1, -1, {0, -1}, 0, {&laws::signorini}}}), {}, {}, quiet),
                        doctest::Contains("translation along x"), InputError);
 }

@@ -58,8 +58,8 @@ class ExactBeam {
   Eigen::Vector4d a_;
 };
 
-inline beam::Beam beam_between(double length, double EJ, double q, problem::SupportLaw left_deflection, problem::SupportLaw left_rotation,
-                               problem::SupportLaw right_deflection, problem::SupportLaw right_rotation) {
+inline beam::Beam beam_between(double length, double EJ, double q, problem::LawChoice left_deflection, problem::LawChoice left_rotation,
+                               problem::LawChoice right_deflection, problem::LawChoice right_rotation) {
   beam::Beam b;
   b.length = length;
   b.EJ = EJ;

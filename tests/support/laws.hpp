@@ -6,8 +6,8 @@
 
 namespace dotyk::test {
 
-using Laws = problem::SupportLaw;
-using LawKind = problem::SupportLaw::Kind;
+using Laws = problem::LawChoice;
+namespace laws = problem::laws;
 
 inline void support(const std::shared_ptr<scene::Body>& b, const std::string& name, const Laws& normal, const Laws& tangential = {}) {
   auto p = part(b, name);

@@ -1,10 +1,10 @@
 #pragma once
 
 // Laws of supports that most tests of beams and plates need.
-#include "problem/support_law.hpp"
+#include "problem/law_choice.hpp"
 
 namespace dotyk::test {
 
-inline constexpr problem::SupportLaw kFree{}, kHeld{problem::SupportLaw::Kind::prescribed, 0, 0};
+inline constexpr problem::LawChoice kFree{}, kHeld{&problem::laws::prescribed, 0, 0};
 
 }  // namespace dotyk::test

@@ -8,25 +8,22 @@
 namespace dotyk::test {
 
 /// How far (v, r) is from the law's graph, r per length in units of `force`, v of `displacement`: the lesser way where a spring is stiff.
-inline double off_law(const SupportLaw& law, double v, double r, double displacement, double force) {
-  const double spring = law.kind == Kind::friction || law.kind == Kind::one_sided_friction || law.kind == Kind::load ? 0 : std::max(law.value, law.pull);
+inline double off_law(const LawChoice& law, double v, double r, double displacement, double force) {
+  const double spring = law.is(laws::friction) || law.is(laws::one_sided_friction) || law.is(laws::load) ? 0 : std::max(law.numbers[0], law.numbers[1]);
   const auto force_off = [&](double expected) { return std::abs(r - expected) / (force + spring * displacement); };
   const double rigid = std::abs(v) / displacement;
-  switch (law.kind) {
-    case Kind::free: return force_off(0);
-    case Kind::prescribed: return std::abs(v - law.value) / displacement;
-    case Kind::load: return force_off(law.value);
-    case Kind::elastic: return force_off(-law.value * v);
-    case Kind::one_sided_elastic: return force_off(law.value * std::max(-v, 0.0));
-    case Kind::unequal_elastic: return force_off(-(v < 0 ? law.value : law.pull) * v);
-    case Kind::capped_elastic: return force_off(std::clamp(-law.value * v, -law.limit, law.limit));
-    case Kind::signorini: return std::max({-v / displacement, -r / force, std::min(rigid, std::abs(r) / force)});
-    case Kind::friction: return std::min(std::max(rigid, (std::abs(r) - law.value) / force), force_off(v > 0 ? -law.value : law.value));
-    case Kind::one_sided_friction: return std::min(std::max({rigid, (r - law.value) / force, -r / force}), force_off(v > 0 ? 0 : law.value));
-    case Kind::compliance: return force_off(law.value * std::pow(std::max(-v, 0.0), law.power));
-    case Kind::coulomb:
-    case Kind::breaking: break;
-  }
+  const double first = law.numbers[0], second = law.numbers[1];
+  if (law.is(laws::free)) return force_off(0);
+  if (law.is(laws::prescribed)) return std::abs(v - first) / displacement;
+  if (law.is(laws::load)) return force_off(first);
+  if (law.is(laws::elastic)) return force_off(-first * v);
+  if (law.is(laws::one_sided_elastic)) return force_off(first * std::max(-v, 0.0));
+  if (law.is(laws::unequal_elastic)) return force_off(-(v < 0 ? first : second) * v);
+  if (law.is(laws::capped_elastic)) return force_off(std::clamp(-first * v, -second, second));
+  if (law.is(laws::signorini)) return std::max({-v / displacement, -r / force, std::min(rigid, std::abs(r) / force)});
+  if (law.is(laws::friction)) return std::min(std::max(rigid, (std::abs(r) - first) / force), force_off(v > 0 ? -first : first));
+  if (law.is(laws::one_sided_friction)) return std::min(std::max({rigid, (r - first) / force, -r / force}), force_off(v > 0 ? 0 : first));
+  if (law.is(laws::compliance)) return force_off(first * std::pow(std::max(-v, 0.0), second));
   return INFINITY;
 }
 
@@ -55,7 +52,7 @@ inline double off_laws(const plate::Solution& s, double t = 0) {
     if (a.row >= 0) worst = std::max(worst, off_law(a.law, value(plate::deflection(m.space, a)), lambda[a.row] * a.part_of_row / a.share, most, greatest));
   for (const plate::Sample& a : m.rotations) {
     if (a.row < 0) continue;
-    const double turn = problem::directed(a.law.kind) ? -1 : 1;  // one-sided ones keep the slope down
+    const double turn = a.law->directed() ? -1 : 1;  // one-sided ones keep the slope down
     const double v = turn * value(plate::rotation(m.space, a)), r = lambda[a.row] * a.part_of_row / a.share * m.space.unit;
     worst = std::max(worst, off_law(a.law, v, r, most / length, greatest * length));
   }

@@ -11,20 +11,20 @@ namespace dotyk::test {
 
 using plate::Element;
 using plate::Plate;
-using problem::SupportLaw;
-using Kind = SupportLaw::Kind;
+using problem::LawChoice;
+namespace laws = problem::laws;
 
 inline constexpr Element kElements[] = {Element::morley, Element::hct};
 /// Bending stiffness and Poisson's ratio where exact solutions are compared with.
 inline constexpr double kD = 3, kNu = 0.3;
 
-inline plate::LawField always(SupportLaw law) {
+inline plate::LawField always(LawChoice law) {
   return [law](double, double) { return law; };
 }
 
 /// v = value(x, y).
 inline plate::LawField prescribed(plate::Field value) {
-  return [value](double x, double y) { return SupportLaw{Kind::prescribed, value(x, y)}; };
+  return [value](double x, double y) { return LawChoice{&laws::prescribed, value(x, y)}; };
 }
 
 /// n × n squares halved, their inner nodes moved.
@@ -46,7 +46,7 @@ inline Plate plate_on(Mesh mesh, Element element, double load = 0) {
 inline void support(Plate& p, const std::string& part, plate::LawField deflection, plate::LawField rotation) {
   p.edges.push_back({part.empty() ? "edge" : part, part.empty() ? mesh::boundary(*p.mesh) : p.mesh->parts.at(part), std::move(deflection), std::move(rotation)});
 }
-inline void support(Plate& p, const std::string& part, SupportLaw deflection, SupportLaw rotation) { support(p, part, always(deflection), always(rotation)); }
+inline void support(Plate& p, const std::string& part, LawChoice deflection, LawChoice rotation) { support(p, part, always(deflection), always(rotation)); }
 
 inline std::shared_ptr<const plate::Solution> solved(const Plate& p, const solver::Method& method = {}) {
   Monitor quiet;

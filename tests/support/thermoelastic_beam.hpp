@@ -6,7 +6,7 @@
 namespace dotyk::test {
 
 inline Monitor monitor;  ///< never stops
-using LawKind = problem::SupportLaw::Kind;
+namespace laws = problem::laws;
 
 inline thermoelastic::Data thermal_beam(int cells = 16, double above = 0.2, double below = 0.2) {
   thermoelastic::Data d;
@@ -23,7 +23,7 @@ inline thermoelastic::Data thermal_beam(int cells = 16, double above = 0.2, doub
   return d;
 }
 
-inline problem::SupportLaw law(LawKind kind, double value = 0, double limit = 0) { return {kind, value, limit}; }
+inline problem::LawChoice law(const problem::LawSpec* kind, double value = 0, double limit = 0) { return {kind, value, limit}; }
 
 inline thermoelastic::Source source(std::function<double(double, double)> f) { return {0, std::move(f)}; }
 inline thermoelastic::History history(std::function<double(double)> f) { return {0, std::move(f)}; }

@@ -18,8 +18,8 @@ constexpr double kStiffness = 40, kLimit = 0.3;
 /// Clamped at the left, on a support at the right that breaks.
 Data propped(double limit = kLimit) {
   Data d = thermal_beam(8);
-  d.supports[0].deflection = d.supports[0].rotation = d.supports[0].displacement = law(LawKind::prescribed);
-  d.supports[1].deflection = law(LawKind::breaking, kStiffness, limit);
+  d.supports[0].deflection = d.supports[0].rotation = d.supports[0].displacement = law(&laws::prescribed);
+  d.supports[1].deflection = law(&laws::breaking, kStiffness, limit);
   return d;
 }
 
@@ -110,9 +110,9 @@ TEST_CASE("the scheme keeps its order, decomposed or not, and the energy is bala
 TEST_CASE("one support that breaks overloads the next, also at rest; all at once where they bear the same") {
   Data d = thermal_beam(16);
   for (const double x : {0.25, 0.5, 0.75})
-    d.supports.insert(d.supports.end() - 1, {text("x = ", x), x, law(LawKind::breaking, 1e5, 0.4), {}, {}});
-  d.supports[0].deflection = d.supports[4].deflection = law(LawKind::prescribed);
-  d.supports[0].displacement = law(LawKind::prescribed);
+    d.supports.insert(d.supports.end() - 1, {text("x = ", x), x, law(&laws::breaking, 1e5, 0.4), {}, {}});
+  d.supports[0].deflection = d.supports[4].deflection = law(&laws::prescribed);
+  d.supports[0].displacement = law(&laws::prescribed);
   const Stepping s = run(d, {0.1, Order::two, true, {}}, growing(), 3);
   REQUIRE(s.broken().size() == 3);
   CHECK(s.broken()[0].time == s.broken()[2].time);
@@ -128,8 +128,8 @@ TEST_CASE("one support that breaks overloads the next, also at rest; all at once
 
 TEST_CASE("a beam that falls when its support breaks is refused by name, and left as it was") {
   Data d = thermal_beam(8);
-  d.supports[0].deflection = d.supports[0].displacement = law(LawKind::prescribed);
-  d.supports[1].deflection = law(LawKind::breaking, kStiffness, kLimit);
+  d.supports[0].deflection = d.supports[0].displacement = law(&laws::prescribed);
+  d.supports[1].deflection = law(&laws::breaking, kStiffness, kLimit);
   Stepping s(d, {}, {0.1, Order::two, true, {}}, growing(), monitor);
   s.run(0.5, growing(), monitor);
   const double deflection = s.deflection(0.5);
@@ -147,8 +147,8 @@ TEST_CASE("a beam that falls when its support breaks is refused by name, and lef
 
 TEST_CASE("a bar between walls breaks a support along its axis while bending goes on") {
   Data d = thermal_beam(8);
-  d.supports[0].deflection = d.supports[1].deflection = d.supports[0].displacement = law(LawKind::prescribed);
-  d.supports[1].displacement = law(LawKind::breaking, 30, 0.5);
+  d.supports[0].deflection = d.supports[1].deflection = d.supports[0].displacement = law(&laws::prescribed);
+  d.supports[1].displacement = law(&laws::breaking, 30, 0.5);
   Loads heated;
   heated.heat = source([](double, double t) { return 2 * t; });
   const Stepping s = run(d, {0.05, Order::two, true, {}}, heated, 2);

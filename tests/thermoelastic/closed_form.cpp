@@ -19,7 +19,7 @@ constexpr double kPi = M_PI;
 TEST_CASE("a sine of the gradient in a simply supported beam decays at (π² + a₂₂)/(a₁ + a₂α)") {
   for (const bool decompose : {true, false}) {
     Data d = thermal_beam(24);
-    d.supports[0].deflection = d.supports[1].deflection = law(LawKind::prescribed);
+    d.supports[0].deflection = d.supports[1].deflection = law(&laws::prescribed);
     d.heat_ends = {HeldHeat{true, true}, HeldHeat{true, true}};
     const Initial initial{{}, source([](double x, double) { return std::sin(kPi * x); })};
     Stepping s(d, initial, {1e-3, Order::two, decompose, {}}, {}, monitor);
@@ -38,7 +38,7 @@ TEST_CASE("a sine of the gradient in a simply supported beam decays at (π² + a
 TEST_CASE("a free bar cools at a₁₁/(a₁ + a₂α), a held one at a₁₁/a₁ under N = −EFαϑ") {
   for (const bool held : {false, true}) {
     Data d = thermal_beam(4);
-    if (held) d.supports[0].displacement = d.supports[1].displacement = law(LawKind::prescribed);
+    if (held) d.supports[0].displacement = d.supports[1].displacement = law(&laws::prescribed);
     const Initial initial{{2, {}}, {}};
     Stepping s(d, initial, {1e-2, Order::two, true, {}}, {}, monitor);
     s.run(1, {}, monitor);
@@ -55,7 +55,7 @@ TEST_CASE("a free bar cools at a₁₁/(a₁ + a₂α), a held one at a₁₁/a�
 TEST_CASE("a heated bar between two walls that only push presses on both, cooled it leaves them") {
   for (const double sign : {1.0, -1.0}) {
     Data d = thermal_beam(4);
-    d.supports[0].displacement = d.supports[1].displacement = law(LawKind::signorini);
+    d.supports[0].displacement = d.supports[1].displacement = law(&laws::signorini);
     const Initial initial{{sign, {}}, {}};
     Stepping s(d, initial, {0.1, Order::one, true, {}}, {}, monitor);
     const double force = sign > 0 ? d.E * 0.5 * d.expansion : 0;
@@ -76,7 +76,7 @@ TEST_CASE("a uniform gradient bends a clamped beam not at all, with M = −EJα 
     CHECK(s.deflection(0.5) - 0.5 * (s.deflection(0) + s.deflection(1)) == doctest::Approx(3 * d.expansion / 8));
     CHECK(std::abs(s.moment(0.5)) < 1e-10);
   }
-  for (Support& end : d.supports) end.deflection = end.rotation = law(LawKind::prescribed);
+  for (Support& end : d.supports) end.deflection = end.rotation = law(&laws::prescribed);
   Stepping s(d, initial, {0.1, Order::one, true, {}}, {}, monitor);
   CHECK(std::abs(s.deflection(0.4)) < 1e-12);
   CHECK(s.moment(0.4) == doctest::Approx(-EJ * d.expansion * 3));
@@ -85,12 +85,12 @@ TEST_CASE("a uniform gradient bends a clamped beam not at all, with M = −EJα 
 
 TEST_CASE("without heat it is the beam: deflection, moment and shear of a propped cantilever, exact at nodes") {
   Data d = thermal_beam(7);
-  d.supports[0].deflection = d.supports[0].rotation = law(LawKind::prescribed);
-  d.supports[1].deflection = law(LawKind::signorini);
+  d.supports[0].deflection = d.supports[0].rotation = law(&laws::prescribed);
+  d.supports[1].deflection = law(&laws::signorini);
   Loads loads;
   loads.transverse.constant = -2;
   loads.axial.constant = 3;
-  d.supports[0].displacement = law(LawKind::elastic, 20);
+  d.supports[0].displacement = law(&laws::elastic, 20);
   Stepping s(d, {}, {0.1, Order::two, true, {}}, loads, monitor);
   const double EJ = d.E * Coefficients(d).J, EF = d.E * 0.5;
   CHECK(s.reaction(1).force == doctest::Approx(3 * 2.0 / 8).epsilon(1e-10));
@@ -109,7 +109,7 @@ TEST_CASE("without heat it is the beam: deflection, moment and shear of a proppe
 
 TEST_CASE("what cannot be solved is refused with the time, the motion and the theorem, and the state stays") {
   Data d = thermal_beam(4);
-  d.supports[0].deflection = d.supports[1].deflection = law(LawKind::signorini);
+  d.supports[0].deflection = d.supports[1].deflection = law(&laws::signorini);
   Loads loads;
   loads.transverse = source([](double, double t) { return t - 0.55; });
   for (const bool decompose : {true, false}) {
@@ -142,7 +142,7 @@ TEST_CASE("numbers that make no sense are refused") {
   refused([](Data& d) { d.exchange_above = -1; });
   refused([](Data& d) { d.reference = 0; });
   refused([](Data& d) { d.cells = 0; });
-  refused([](Data& d) { d.supports[0].deflection = law(LawKind::elastic, -1); });
+  refused([](Data& d) { d.supports[0].deflection = law(&laws::elastic, -1); });
   Data d = thermal_beam(4);
   CHECK_THROWS_AS(Stepping(d, {}, {0, Order::one, true, {}}, {}, monitor), InputError);
   Stepping s(d, {}, {0.1, Order::one, true, {}}, {}, monitor);

@@ -13,10 +13,10 @@ namespace {
 
 struct Case {
   const char* name;
-  problem::SupportLaw left_deflection, left_rotation, right_deflection, right_rotation;
+  problem::LawChoice left_deflection, left_rotation, right_deflection, right_rotation;
 };
 
-const problem::SupportLaw kNone{}, kHeld = law(LawKind::prescribed, 0.01), kAtNought = law(LawKind::prescribed);
+const problem::LawChoice kNone{}, kHeld = law(&laws::prescribed, 0.01), kAtNought = law(&laws::prescribed);
 
 Data beam_of(const Case& c, double above = 0.2) {
   Data d = thermal_beam(16, above, 0.2);
@@ -72,8 +72,8 @@ double difference(const Data& d, Order order, const std::vector<std::string>& ex
 }  // namespace
 
 TEST_CASE("decomposed and coupled agree after 200 steps in the six exceptional cases and where solvability forces one" * doctest::test_suite("large")) {
-  const auto spring = law(LawKind::elastic, 20), weak = law(LawKind::elastic, 5);
-  const problem::SupportLaw unequal{LawKind::unequal_elastic, 20, 0, 5};
+  const auto spring = law(&laws::elastic, 20), weak = law(&laws::elastic, 5);
+  const problem::LawChoice unequal{&laws::unequal_elastic, 20, 5};
   const std::vector<Case> cases{
       {"1, simply supported", kHeld, kNone, kAtNought, kNone},
       {"2, cantilever", kHeld, kHeld, kNone, kNone},
@@ -81,16 +81,16 @@ TEST_CASE("decomposed and coupled agree after 200 steps in the six exceptional c
       {"4, simply supported by springs", spring, kNone, weak, kNone},
       {"5, cantilever held by springs", spring, weak, kNone, kNone},
       {"6, simply supported and guided by springs", spring, kNone, kNone, weak},
-      {"simply supported, one end loaded by a moment", kHeld, law(LawKind::load, 0.2), kAtNought, kNone},
-      {"theorem 2, one-sided springs", law(LawKind::one_sided_elastic, 20), kNone, law(LawKind::one_sided_elastic, 30), kNone},
-      {"theorem 3, Signorini", law(LawKind::signorini), kNone, law(LawKind::signorini), kNone},
-      {"theorem 4, friction against rotation", kAtNought, law(LawKind::friction, 2), kNone, kNone},
-      {"theorem 5, friction against deflection", law(LawKind::friction, 2), kNone, law(LawKind::friction, 2), kNone},
-      {"one-sided friction", law(LawKind::one_sided_friction, 2), kNone, law(LawKind::one_sided_friction, 2), kNone},
-      {"capped springs", law(LawKind::capped_elastic, 20, 2), kNone, law(LawKind::capped_elastic, 20, 2), kNone},
+      {"simply supported, one end loaded by a moment", kHeld, law(&laws::load, 0.2), kAtNought, kNone},
+      {"theorem 2, one-sided springs", law(&laws::one_sided_elastic, 20), kNone, law(&laws::one_sided_elastic, 30), kNone},
+      {"theorem 3, Signorini", law(&laws::signorini), kNone, law(&laws::signorini), kNone},
+      {"theorem 4, friction against rotation", kAtNought, law(&laws::friction, 2), kNone, kNone},
+      {"theorem 5, friction against deflection", law(&laws::friction, 2), kNone, law(&laws::friction, 2), kNone},
+      {"one-sided friction", law(&laws::one_sided_friction, 2), kNone, law(&laws::one_sided_friction, 2), kNone},
+      {"capped springs", law(&laws::capped_elastic, 20, 2), kNone, law(&laws::capped_elastic, 20, 2), kNone},
       {"springs of two stiffnesses", unequal, kNone, unequal, kNone},
       {"springs of two stiffnesses about the rotation", kHeld, unequal, kNone, kNone},
-      {"laws without strength besides", kHeld, law(LawKind::friction, 0), kAtNought, law(LawKind::elastic, 0)},
+      {"laws without strength besides", kHeld, law(&laws::friction, 0), kAtNought, law(&laws::elastic, 0)},
   };
   const std::vector<std::string> both{"stretching", "bending"};
   for (const Case& c : cases)
@@ -104,17 +104,17 @@ TEST_CASE("decomposed and coupled agree after 200 steps in the six exceptional c
 
 TEST_CASE("an overhanging beam on two inner supports is decomposed as well") {
   Data d = thermal_beam(16);
-  d.supports.insert(d.supports.begin() + 1, {{"x = 0.2", 0.2, law(LawKind::signorini), {}, {}}, {"x = 0.7", 0.7, law(LawKind::signorini), {}, {}}});
+  d.supports.insert(d.supports.begin() + 1, {{"x = 0.2", 0.2, law(&laws::signorini), {}, {}}, {"x = 0.7", 0.7, law(&laws::signorini), {}, {}}});
   d.supports[0].displacement = kAtNought;
-  d.supports[3].deflection = law(LawKind::load, -0.1);
+  d.supports[3].deflection = law(&laws::load, -0.1);
   CHECK(difference(d, Order::two, {"stretching", "bending"}) < 1e-8);
 }
 
 TEST_CASE("what statics does not give is coupled: three supports, two clamped ends, a bar between walls") {
-  const std::vector<Case> cases{{"propped", kAtNought, kAtNought, law(LawKind::signorini), kNone},
+  const std::vector<Case> cases{{"propped", kAtNought, kAtNought, law(&laws::signorini), kNone},
                                 {"clamped", kAtNought, kAtNought, kAtNought, kAtNought},
                                 {"both rotations", kNone, kAtNought, kNone, kAtNought},
-                                {"elastic rotation", kAtNought, law(LawKind::elastic, 1), kAtNought, kNone}};
+                                {"elastic rotation", kAtNought, law(&laws::elastic, 1), kAtNought, kNone}};
   for (const Case& c : cases) {
     CAPTURE(c.name);
     Data d = beam_of(c);
@@ -129,7 +129,7 @@ TEST_CASE("what statics does not give is coupled: three supports, two clamped en
 }
 
 TEST_CASE("at the limit of a law a step is coupled, and goes on") {
-  Data d = beam_of({"", law(LawKind::signorini), kNone, law(LawKind::signorini), kNone});
+  Data d = beam_of({"", law(&laws::signorini), kNone, law(&laws::signorini), kNone});
   Loads driving;
   driving.transverse = source([](double, double t) { return -std::max(0.0, std::sin(2 * M_PI * t)); });  // rests unloaded from 0.5 to 1
   Stepping s(d, {}, {0.05, Order::one, true, {}}, driving, monitor);

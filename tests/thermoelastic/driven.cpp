@@ -43,8 +43,8 @@ void at_times(const Data& data, const Loads& loads, Check check) {
 
 TEST_CASE("a settlement and a turn of one end of a clamped beam, in closed form") {
   Data d = cold_beam();
-  for (Support& s : d.supports) s.deflection = s.rotation = law(LawKind::prescribed);
-  d.supports[0].deflection.value = 0.25;  // what is prescribed adds to the place
+  for (Support& s : d.supports) s.deflection = s.rotation = law(&laws::prescribed);
+  d.supports[0].deflection.numbers[0] = 0.25;  // what is prescribed adds to the place
   Loads loads;
   loads.supports = {{0, {wave(0.5), {}}, {wave(-0.3, 2), {}}, {}}};
   const double EJ = d.E * Coefficients(d).J;
@@ -64,10 +64,10 @@ TEST_CASE("a settlement and a turn of one end of a clamped beam, in closed form"
 TEST_CASE("T + ku = T̂ and M - mDu = M̂ at the end of a cantilever, the springs' feet moving; the same along the axis") {
   Data d = cold_beam();
   const double EJ = d.E * Coefficients(d).J, EF = d.E * Coefficients(d).F, k = 2, m = 0.5, axial = 30;
-  d.supports[0].deflection = d.supports[0].rotation = d.supports[0].displacement = law(LawKind::prescribed);
-  d.supports[1].deflection = law(LawKind::elastic, k);
-  d.supports[1].rotation = law(LawKind::elastic, m);
-  d.supports[1].displacement = law(LawKind::elastic, axial);
+  d.supports[0].deflection = d.supports[0].rotation = d.supports[0].displacement = law(&laws::prescribed);
+  d.supports[1].deflection = law(&laws::elastic, k);
+  d.supports[1].rotation = law(&laws::elastic, m);
+  d.supports[1].displacement = law(&laws::elastic, axial);
   Loads loads;
   loads.supports = {{1, {wave(0.2), wave(0.7, 3)}, {wave(0.1, 2), wave(-0.4)}, {wave(0.05), wave(4, 2)}}, {0, {}, {}, {wave(-0.02), {}}}};
   at_times(d, loads, [&](const Stepping& s, double t) {
@@ -95,8 +95,8 @@ TEST_CASE("T + ku = T̂ and M - mDu = M̂ at the end of a cantilever, the spring
 TEST_CASE("a stop that rises meets the end of a cantilever") {
   Data d = cold_beam();
   const double EJ = d.E * Coefficients(d).J, q = -0.8, rest = q / (8 * EJ);
-  d.supports[0].deflection = d.supports[0].rotation = law(LawKind::prescribed);
-  d.supports[1].deflection = law(LawKind::signorini);
+  d.supports[0].deflection = d.supports[0].rotation = law(&laws::prescribed);
+  d.supports[1].deflection = law(&laws::signorini);
   Loads loads;
   loads.transverse.constant = q;
   loads.supports = {{1, {wave(-0.2), {}}, {}, {}}};
@@ -113,15 +113,15 @@ TEST_CASE("a stop that rises meets the end of a cantilever") {
 TEST_CASE("places and forces that stay are prescribed displacements and loads") {
   Data d = thermal_beam(8, 0.2, 0.8), constant = d;
   for (Data* data : {&d, &constant}) {
-    data->supports.insert(data->supports.begin() + 1, {"middle", 0.4, law(LawKind::elastic, 3), {}, {}});
-    data->supports[0].deflection = data->supports[0].rotation = data->supports[0].displacement = law(LawKind::prescribed);
-    data->supports[2].deflection = law(LawKind::prescribed);
+    data->supports.insert(data->supports.begin() + 1, {"middle", 0.4, law(&laws::elastic, 3), {}, {}});
+    data->supports[0].deflection = data->supports[0].rotation = data->supports[0].displacement = law(&laws::prescribed);
+    data->supports[2].deflection = law(&laws::prescribed);
   }
-  constant.supports[0].deflection.value = 0.1;
-  constant.supports[0].rotation.value = -0.2;
-  constant.supports[0].displacement.value = 0.03;
-  constant.supports[1].rotation = law(LawKind::load, 0.7);
-  constant.supports[2].displacement = law(LawKind::load, 2);
+  constant.supports[0].deflection.numbers[0] = 0.1;
+  constant.supports[0].rotation.numbers[0] = -0.2;
+  constant.supports[0].displacement.numbers[0] = 0.03;
+  constant.supports[1].rotation = law(&laws::load, 0.7);
+  constant.supports[2].displacement = law(&laws::load, 2);
   Loads still, driven;
   still.heat_gradient = driven.heat_gradient = source([](double x, double t) { return 20 * std::sin(2 * t) * x; });
   const auto number = [](double value) { return History{value, {}}; };
@@ -145,17 +145,17 @@ TEST_CASE("places and forces that stay are prescribed displacements and loads") 
 }
 
 TEST_CASE("supports that move rigidly carry the beam along: temperatures and reactions of every law stay") {
-  const auto with = [](LawKind kind) {
+  const auto with = [](const problem::LawSpec* kind) {
     Data d = thermal_beam(8, 0.2, 0.8);
-    d.supports[0].deflection = law(kind, 2, 0.3), d.supports[0].deflection.pull = 0.5;
+    d.supports[0].deflection = law(kind, 2, 0.3), d.supports[0].deflection.numbers[1] = 0.5;
     d.supports[0].rotation = d.supports[0].deflection;
-    d.supports[1].deflection = law(LawKind::prescribed);
+    d.supports[1].deflection = law(&laws::prescribed);
     d.supports[1].displacement = d.supports[0].deflection;
     return d;
   };
-  for (const LawKind kind : {LawKind::elastic, LawKind::one_sided_elastic, LawKind::signorini, LawKind::friction, LawKind::one_sided_friction,
-                             LawKind::capped_elastic, LawKind::unequal_elastic}) {
-    CAPTURE(problem::support_name(kind));
+  for (const problem::LawSpec* kind : {&laws::elastic, &laws::one_sided_elastic, &laws::signorini, &laws::friction, &laws::one_sided_friction,
+                             &laws::capped_elastic, &laws::unequal_elastic}) {
+    CAPTURE(kind->words);
     Loads still, moved;
     still.transverse = moved.transverse = source([](double x, double t) { return -0.4 * (1 + 0.2 * std::sin(5 * t) * x); });
     still.heat_gradient = moved.heat_gradient = source([](double x, double t) { return 20 * std::sin(2 * t) * x; });
@@ -189,10 +189,10 @@ namespace {
 /// Heat bends and stretches; supports move and are pressed.
 Data driven_beam() {
   Data d = thermal_beam(8, 0.2, 0.8);
-  d.supports[0].deflection = d.supports[0].rotation = d.supports[0].displacement = law(LawKind::prescribed);
-  d.supports[1].deflection = law(LawKind::elastic, 10);
-  d.supports[1].rotation = law(LawKind::elastic, 0.5);
-  d.supports[1].displacement = law(LawKind::elastic, 5);
+  d.supports[0].deflection = d.supports[0].rotation = d.supports[0].displacement = law(&laws::prescribed);
+  d.supports[1].deflection = law(&laws::elastic, 10);
+  d.supports[1].rotation = law(&laws::elastic, 0.5);
+  d.supports[1].displacement = law(&laws::elastic, 5);
   return d;
 }
 
@@ -238,8 +238,8 @@ TEST_CASE("orders 1 and 2 in time under moving supports and end forces, and of t
 TEST_CASE("what statics decomposes stays so where its supports move and are pressed: reactions in closed form, the fields of the coupled solution") {
   // Simply supported on a rigid and an elastic support, all moments given; heat bends and stretches it.
   Data d = thermal_beam(8, 0.2, 0.2);
-  d.supports[0].deflection = d.supports[0].displacement = law(LawKind::prescribed);
-  d.supports[1].deflection = law(LawKind::elastic, 4);
+  d.supports[0].deflection = d.supports[0].displacement = law(&laws::prescribed);
+  d.supports[1].deflection = law(&laws::elastic, 4);
   Loads loads;
   loads.transverse.constant = -1;
   loads.heat_gradient = source([](double x, double t) { return 20 * std::sin(2 * t) * x; });
@@ -279,7 +279,7 @@ TEST_CASE("a modulus and an expansion that jump, in closed form; the same by sta
   Data d = thermal_beam(8, 0, 0);
   d.E_of = [](double x) { return x < 0.5 ? 100.0 : 25.0; };
   d.expansion_of = [](double x) { return x < 0.5 ? 0.1 : 0.3; };
-  d.supports[0].deflection = d.supports[0].rotation = d.supports[0].displacement = law(LawKind::prescribed);
+  d.supports[0].deflection = d.supports[0].rotation = d.supports[0].displacement = law(&laws::prescribed);
   const double P = -0.2, N = 1.5, J = Coefficients(d).J, F = Coefficients(d).F;
   Loads loads;
   loads.supports = {{1, {{}, {P, {}}}, {}, {{}, {N, {}}}}};
@@ -310,7 +310,7 @@ TEST_CASE("order 2 in the cells where the modulus and the expansion vary") {
     Data d = thermal_beam(cells, 0.2, 0.8);
     d.E_of = [](double x) { return 100 * (1 + x * x); };
     d.expansion_of = [](double x) { return 0.1 * std::exp(x); };
-    for (Support& s : d.supports) s.deflection = s.rotation = s.displacement = law(LawKind::prescribed);
+    for (Support& s : d.supports) s.deflection = s.rotation = s.displacement = law(&laws::prescribed);
     Loads loads;
     loads.transverse.constant = -1;
     loads.heat = loads.heat_gradient = source([](double x, double t) { return 20 * t * x; });

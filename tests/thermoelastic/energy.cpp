@@ -24,10 +24,10 @@ Loads driving_loads() {
 /// A propped cantilever on a one-sided spring, its axis held by friction and a spring, one end's temperature moving.
 Data held_beam() {
   Data d = thermal_beam(8, 0.2, 0.8);
-  d.supports[0].deflection = d.supports[0].rotation = law(LawKind::prescribed);
-  d.supports[1].deflection = law(LawKind::one_sided_elastic, 10);
-  d.supports[0].displacement = law(LawKind::friction, 0.3);
-  d.supports[1].displacement = law(LawKind::elastic, 5);
+  d.supports[0].deflection = d.supports[0].rotation = law(&laws::prescribed);
+  d.supports[1].deflection = law(&laws::one_sided_elastic, 10);
+  d.supports[0].displacement = law(&laws::friction, 0.3);
+  d.supports[1].displacement = law(&laws::elastic, 5);
   d.heat_ends[0].mean = true;
   return d;
 }

@@ -32,7 +32,7 @@ struct Manufactured {
   static double gradient(double x, int k) { return k == 0 ? std::sin(3 * x) : k == 1 ? 3 * std::cos(3 * x) : -9 * std::sin(3 * x); }
 
   Manufactured() {
-    for (Support& s : data.supports) s.deflection = s.rotation = s.displacement = law(LawKind::prescribed);
+    for (Support& s : data.supports) s.deflection = s.rotation = s.displacement = law(&laws::prescribed);
     data.heat_ends = {HeldHeat{true, true}, HeldHeat{true, true}};
   }
   Loads loads() const {
@@ -110,9 +110,9 @@ TEST_CASE("orders 1 and 2 in time") {
 
 TEST_CASE("order 2 in time stays where supports close and open on the way" * doctest::test_suite("large")) {
   Data d = thermal_beam(12);
-  d.supports[0].deflection = d.supports[0].rotation = law(LawKind::prescribed);
-  d.supports[1].deflection = law(LawKind::signorini);
-  d.supports[1].rotation = law(LawKind::friction, 0.05);
+  d.supports[0].deflection = d.supports[0].rotation = law(&laws::prescribed);
+  d.supports[1].deflection = law(&laws::signorini);
+  d.supports[1].rotation = law(&laws::friction, 0.05);
   Loads driving;
   driving.transverse.constant = 0.05;
   driving.heat_gradient = source([](double x, double t) { return 300 * std::sin(7 * t) * (0.5 + x); });

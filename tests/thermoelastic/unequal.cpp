@@ -14,12 +14,12 @@ using namespace dotyk::thermoelastic;
 
 namespace {
 
-problem::SupportLaw unequal(double push, double pull) { return {LawKind::unequal_elastic, push, 0, pull}; }
+problem::LawChoice unequal(double push, double pull) { return {&laws::unequal_elastic, push, pull}; }
 
 /// A cantilever whose other end has the law in every displacement, bent and stretched to and fro.
-std::unique_ptr<const Stepping> moved(const problem::SupportLaw& law, double time) {
+std::unique_ptr<const Stepping> moved(const problem::LawChoice& law, double time) {
   Data d = thermal_beam(8);
-  d.supports[0].deflection = d.supports[0].rotation = d.supports[0].displacement = test::law(LawKind::prescribed);
+  d.supports[0].deflection = d.supports[0].rotation = d.supports[0].displacement = test::law(&laws::prescribed);
   d.supports[1].deflection = d.supports[1].rotation = d.supports[1].displacement = law;
   Loads loads;
   loads.transverse = source([](double, double t) { return -std::cos(5 * t); });
@@ -40,8 +40,8 @@ double difference(const std::unique_ptr<const Stepping>& left, const std::unique
 
 TEST_CASE("with equal stiffnesses it is elastic, with one of 0 one-sided elastic, also along the axis") {
   for (const double time : {0.2, 1.0}) {
-    CHECK(difference(moved(unequal(7, 7), time), moved(law(LawKind::elastic, 7), time)) < 1e-12);
-    CHECK(difference(moved(unequal(7, 0), time), moved(law(LawKind::one_sided_elastic, 7), time)) < 1e-12);
+    CHECK(difference(moved(unequal(7, 7), time), moved(law(&laws::elastic, 7), time)) < 1e-12);
+    CHECK(difference(moved(unequal(7, 0), time), moved(law(&laws::one_sided_elastic, 7), time)) < 1e-12);
   }
 }
 

@@ -38,8 +38,8 @@ void add_bending_diagrams(BeamView& view, std::function<double(double)> moment, 
   view.diagrams[BeamPanel::moment] = std::move(M), view.diagrams[BeamPanel::shear] = std::move(T);
 }
 
-ViewedLaw viewed(const problem::SupportLaw& law, double displacement, double reaction, LawSide of, const thermoelastic::Driven& driven = {}, bool right_end = false) {
-  const double load = law.kind == problem::SupportLaw::Kind::load ? law.value : 0;
+ViewedLaw viewed(const problem::LawChoice& law, double displacement, double reaction, LawSide of, const thermoelastic::Driven& driven = {}, bool right_end = false) {
+  const double load = law.force();
   return {law, displacement, reaction, turned(law, of, right_end), driven.place, driven.force - load};
 }
 
@@ -49,8 +49,8 @@ const ViewedLaw& ViewedSupport::of(LawSide side) const {
   return side == LawSide::deflection ? deflection : side == LawSide::rotation ? rotation : displacement;
 }
 
-bool turned(const problem::SupportLaw& law, LawSide of, bool right_end) {
-  return (of == LawSide::rotation || (of == LawSide::displacement && right_end)) && problem::directed(law.kind);
+bool turned(const problem::LawChoice& law, LawSide of, bool right_end) {
+  return (of == LawSide::rotation || (of == LawSide::displacement && right_end)) && law->directed();
 }
 
 Scales scales(const BeamView& view, LawSide of) {
@@ -70,8 +70,8 @@ BeamView view(const beam::Solution& s) {
   for (const beam::PointLoad& load : b.loads) out.loads.push_back({load.x, load.force, load.moment});
   for (std::size_t i = 0; i < b.supports.size(); ++i) {
     const beam::Support& support = b.supports[i];
-    const auto at = [](const problem::SupportLaw& law, double place) {
-      return thermoelastic::Driven{place, law.kind == problem::SupportLaw::Kind::load ? law.value : 0};
+    const auto at = [](const problem::LawChoice& law, double place) {
+      return thermoelastic::Driven{place, law.force()};
     };
     const beam::Reaction r = s.reaction(static_cast<int>(i));
     out.supports.push_back({support.x, viewed(support.deflection, r.deflection, r.force, LawSide::deflection, at(support.deflection, support.deflection_at)),

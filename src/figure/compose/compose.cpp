@@ -108,18 +108,16 @@ BodyPicture body_picture(const Solution& s, int index, const SceneOptions& optio
 
 /// Laws, by the nearest of the known symbols: rollers for a rigid base, else springs; none where the support is broken.
 void add_law_supports(const Solution& s, int index, int& along, ScenePicture& picture) {
-  using Kind = problem::SupportLaw::Kind;
   const Body& body = s.body(index);
   for (const scene::LawSupport& on : body.laws) {
     const Outline outline(*body.mesh, on.facets, along);
     const auto result = s.support({s.scene().bodies[index], on.part.name, on.facets});
-    const Kind normal = on.normal.kind == Kind::free ? on.tangential.kind : on.normal.kind;
-    if (normal == Kind::load) continue;
-    const bool rigid = normal == Kind::signorini || normal == Kind::prescribed;
+    const problem::LawChoice& law = on.normal->acts() ? on.normal : on.tangential;
+    if (law->load) continue;
     for (const scene::SupportNode& node : result.nodes)
       if (!node.broken)
         picture.supports.push_back({node.x, mesh::at_node(s.displacement(index), node.node, body.dimension()), node.normal, {true, true, true},
-                                    rigid ? SupportKind::slide : SupportKind::spring, node.status == problem::Status::open && on.normal.kind != Kind::free,
+                                    law->stop() || law->prescribes ? SupportKind::slide : SupportKind::spring, node.status == problem::Status::open && on.normal->acts(),
                                     outline.of(node.node)});
   }
 }

@@ -11,8 +11,7 @@
 namespace dotyk::figure {
 
 using problem::GraphWindow;
-using problem::SupportLaw;
-using Kind = SupportLaw::Kind;
+using problem::LawChoice;
 
 namespace {
 
@@ -45,59 +44,36 @@ std::vector<double> points(const BeamView& view) {
   return x;
 }
 
-ElementKind element_kind(Kind kind) {
-  switch (kind) {
-    case Kind::free:
-    case Kind::load:
-    case Kind::coulomb: return ElementKind::none;
-    case Kind::prescribed: return ElementKind::fixed;
-    case Kind::elastic: return ElementKind::spring;
-    case Kind::one_sided_elastic:
-    case Kind::compliance: return ElementKind::plate_spring;
-    case Kind::signorini: return ElementKind::stop;
-    case Kind::friction: return ElementKind::slider;
-    case Kind::one_sided_friction: return ElementKind::plate_slider;
-    case Kind::capped_elastic: return ElementKind::capped_spring;
-    case Kind::unequal_elastic: return ElementKind::paired_springs;
-    case Kind::breaking: return ElementKind::breaking_spring;
-  }
-  return ElementKind::none;
+ElementKind element_kind(const problem::LawTraits& law) {
+  if (!law.acts() || law.load || law.follows) return ElementKind::none;
+  if (law.breaks) return ElementKind::breaking_spring;
+  if (law.rigid && law.bounded) return law.pulls ? ElementKind::slider : ElementKind::plate_slider;
+  if (law.rigid) return law.pulls ? ElementKind::fixed : ElementKind::stop;
+  if (law.uneven) return ElementKind::paired_springs;
+  return law.bounded ? ElementKind::capped_spring : law.pulls ? ElementKind::spring : ElementKind::plate_spring;
 }
 
 /// With v and r as the law has them: one-sided ones push towards v > 0.
-SupportState state(const SupportLaw& law, double v, double r, const Scales& scale) {
+SupportState state(const LawChoice& law, double v, double r, const Scales& scale) {
   const bool moved = std::abs(v) > kRounding * scale.displacement, pushes = r > kRounding * scale.force;
-  switch (law.kind) {
-    case Kind::one_sided_elastic:
-    case Kind::compliance:
-    case Kind::signorini: return pushes ? SupportState::pushing : SupportState::open;
-    case Kind::friction: return moved ? SupportState::slip : SupportState::stick;
-    case Kind::one_sided_friction:
-      if (moved) return v > 0 ? SupportState::open : SupportState::slip;
-      return pushes ? SupportState::stick : SupportState::open;
-    case Kind::capped_elastic: return std::abs(law.value * v) > law.limit ? SupportState::slip : SupportState::acting;
-    case Kind::unequal_elastic:
-      if (std::abs(r) > kRounding * scale.force) return pushes ? SupportState::pushing : SupportState::pulling;
-      return moved ? SupportState::open : SupportState::acting;
-    case Kind::breaking:
-      if (pushes) return SupportState::pushing;
-      return moved && v < 0 ? SupportState::broken : SupportState::open;
-    case Kind::free:
-    case Kind::prescribed:
-    case Kind::load:
-    case Kind::coulomb:
-    case Kind::elastic: break;
-  }
-  return SupportState::acting;
+  if (law->breaks && !pushes) return moved && v < 0 ? SupportState::broken : SupportState::open;
+  if (law->rubs()) return moved ? SupportState::slip : SupportState::stick;
+  if (law->rigid && law->bounded && moved) return v > 0 ? SupportState::open : SupportState::slip;
+  if (law->rigid && law->bounded) return pushes ? SupportState::stick : SupportState::open;
+  if (law->yields()) return std::abs(v) > problem::yield_displacement(law) ? SupportState::slip : SupportState::acting;
+  if (law->one_sided()) return pushes ? SupportState::pushing : SupportState::open;
+  if (!law->uneven) return SupportState::acting;
+  if (std::abs(r) > kRounding * scale.force) return pushes ? SupportState::pushing : SupportState::pulling;
+  return moved ? SupportState::open : SupportState::acting;
 }
 
 SupportElement element(const ViewedLaw& at, const Scales& scale) {
   const double turn = at.turned ? -1 : 1;
   const WorkingPoint w = working_point(at, scale);
   const double v = turn * w.displacement;
-  SupportElement out{element_kind(at.law.kind), state(at.law, v, turn * w.reaction, scale), 0};
+  SupportElement out{element_kind(at.law.spec->traits), state(at.law, v, turn * w.reaction, scale), 0};
   const double yield = problem::yield_displacement(at.law);
-  if (at.law.kind == Kind::capped_elastic && std::isfinite(yield)) out.slip = v - std::clamp(v, -yield, yield);
+  if (at.law->yields() && std::isfinite(yield)) out.slip = v - std::clamp(v, -yield, yield);
   return out;
 }
 
@@ -162,27 +138,29 @@ BeamDrawing beam_drawing(const BeamView& view, const Units& units) {
   for (const ViewedSupport& s : view.supports) {
     const Scales bending = scales(view, LawSide::deflection), turning = scales(view, LawSide::rotation);
     out.supports.push_back({s.x, s.deflection.place + working_point(s.deflection, bending).displacement, s.rotation.place + working_point(s.rotation, turning).displacement,
-                            s.deflection.place, s.rotation.place, element(s.deflection, bending), element(s.rotation, turning), problem::directed(s.rotation.law.kind)});
-    const double force = s.deflection.force + (s.deflection.law.kind == Kind::load ? s.deflection.law.value : 0);
-    const double moment = s.rotation.force + (s.rotation.law.kind == Kind::load ? s.rotation.law.value : 0);
+                            s.deflection.place, s.rotation.place, element(s.deflection, bending), element(s.rotation, turning), s.rotation.law->directed()});
+    const double force = s.deflection.force + s.deflection.law.force();
+    const double moment = s.rotation.force + s.rotation.law.force();
     if (force != 0 || moment != 0) out.loads.push_back({s.x, force, moment});
   }
   return out;
 }
 
 /// How far a graph reaches: a little beyond all that happens on it. `least`, `most`: also where r would be without end.
-GraphWindow window(const SupportLaw& law, const std::optional<WorkingPoint>& at, const Scales& scale) {
+GraphWindow window(const LawChoice& law, const std::optional<WorkingPoint>& at, const Scales& scale) {
   const double yield = problem::yield_displacement(law);
   double v = at ? std::abs(at->displacement) : 0, r = at ? std::abs(at->reaction) : 0;
   if (std::isfinite(yield)) v = std::max(v, yield);
-  if (law.kind == Kind::prescribed) v = std::max(v, std::abs(law.value));
+  v = std::max(v, std::abs(law.displacement()));
   if (!(v > kRounding * scale.displacement)) v = scale.displacement;
-  const bool spring = law.kind == Kind::elastic || law.kind == Kind::one_sided_elastic || law.kind == Kind::unequal_elastic;
-  const bool bounded = law.kind == Kind::friction || law.kind == Kind::one_sided_friction || law.kind == Kind::load;
-  r = std::max({r, spring ? std::max(law.value, law.pull) * v : 0, bounded ? std::abs(law.value) : 0, law.limit});
-  if (!(r > kRounding * scale.force)) r = bounded || spring || law.limit > 0 ? std::max(r, std::numeric_limits<double>::min()) : scale.force;
+  const bool spring = law->elastic() && !law->bounded;
+  const double bound = law->bounded ? law.bound() : std::abs(law.force());
+  r = std::max(r, bound);
+  if (spring)
+    for (const double at : {-v, v}) r = std::max(r, std::abs(problem::row_law(law)->respond(0, at).force));
+  if (!(r > kRounding * scale.force)) r = spring || bound > 0 || law->rigid == law->bounded ? std::max(r, std::numeric_limits<double>::min()) : scale.force;
   if (spring) r *= 1.1;
-  const bool up = problem::one_sided(law.kind);
+  const bool up = law->one_sided();
   return {-1.6 * v, 1.6 * v, (up ? -0.45 : -1.6) * r, 1.6 * r};
 }
 
@@ -228,7 +206,7 @@ CurveDrawing energy_drawing(const problem::SupportGraph& graph, const GraphWindo
 }
 
 /// Graph and superpotential.
-std::vector<PageCell> law_cells(const SupportLaw& law, LawSide of, bool turned, const std::optional<WorkingPoint>& at, const Scales& scale, const Units& units) {
+std::vector<PageCell> law_cells(const LawChoice& law, LawSide of, bool turned, const std::optional<WorkingPoint>& at, const Scales& scale, const Units& units) {
   const double sign = turned ? -1 : 1;
   const GraphWindow w = window(law, at, scale);
   const problem::SupportGraph graph = problem::graph(law, w);
@@ -295,7 +273,7 @@ PagePicture compose(const BeamView& view, const std::vector<BeamPanel>& panels, 
   return page;
 }
 
-PagePicture compose(const SupportLaw& law, LawSide of, const Units& units) { return law_page(law_cells(law, of, turned(law, of), std::nullopt, {}, units)); }
+PagePicture compose(const LawChoice& law, LawSide of, const Units& units) { return law_page(law_cells(law, of, turned(law, of), std::nullopt, {}, units)); }
 
 PagePicture compose(const BeamView& view, int support, LawSide of, const Units& units) {
   PagePicture page = law_page(law_cells(view, support, of, units));

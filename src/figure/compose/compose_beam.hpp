@@ -27,7 +27,7 @@ struct Scales {
 
 // A law of a support, and where on its graph the support is.
 struct ViewedLaw {
-  problem::SupportLaw law;
+  problem::LawChoice law;
   double displacement = 0;  // u, u' or u₁
   double reaction = 0;      // on the beam: up, anticlockwise, along x
   bool turned = false;      // the law is about what is opposite to the displacement
@@ -71,7 +71,7 @@ BeamView view(const beam::Solution& solution);
 BeamView view(const thermoelastic::Stepping& stepping, std::function<double(double)> load);
 
 // One-sided laws are about −u', and at the right end about −u₁.
-bool turned(const problem::SupportLaw& law, LawSide of, bool right_end = false);
+bool turned(const problem::LawChoice& law, LawSide of, bool right_end = false);
 
 // Names beside axes; empty: none.
 struct Units {
@@ -84,7 +84,7 @@ PagePicture compose(const BeamView& view, const std::vector<BeamPanel>& panels, 
 
 // The graph of reaction against displacement, and the superpotential beside it. One-sided laws of a rotation resist
 // slopes above zero: their graphs are turned by half a turn.
-PagePicture compose(const problem::SupportLaw& law, LawSide of, const Units& units);
+PagePicture compose(const problem::LawChoice& law, LawSide of, const Units& units);
 // The same with the working point of a support on it; so are those of a displacement turned at the right end.
 PagePicture compose(const BeamView& view, int support, LawSide of, const Units& units);
 

@@ -11,28 +11,14 @@
 
 namespace dotyk::figure {
 
-using problem::SupportLaw;
-using Kind = SupportLaw::Kind;
+using problem::LawChoice;
 
 namespace {
 
-PlateSupport support_of(Kind kind) {
-  switch (kind) {
-    case Kind::free:
-    case Kind::load:
-    case Kind::coulomb: return PlateSupport::free;
-    case Kind::prescribed: return PlateSupport::held;
-    case Kind::elastic:
-    case Kind::unequal_elastic: return PlateSupport::elastic;
-    case Kind::signorini:
-    case Kind::one_sided_elastic:
-    case Kind::compliance:
-    case Kind::breaking: return PlateSupport::one_sided;
-    case Kind::friction:
-    case Kind::one_sided_friction:
-    case Kind::capped_elastic: return PlateSupport::friction;
-  }
-  return PlateSupport::free;
+PlateSupport support_of(const problem::LawTraits& law) {
+  if (!law.acts() || law.load || law.follows) return PlateSupport::free;
+  if (law.yields()) return PlateSupport::friction;
+  return law.one_sided() ? PlateSupport::one_sided : law.rigid ? PlateSupport::held : PlateSupport::elastic;
 }
 
 // Of supports that hold without condition there is none to tell.
@@ -44,7 +30,7 @@ std::optional<Status> told(PlateSupport support, problem::Status status) {
 using Ends = std::pair<int, int>;  // vertices of an edge of the mesh, counter-clockwise about the plate
 
 // Those that the law can give, where it has a row.
-problem::Interval reactions(const SupportLaw& law) {
+problem::Interval reactions(const LawChoice& law) {
   const auto row = problem::row_law(law);
   return row ? row->multipliers(0) : problem::Interval{-INFINITY, INFINITY};
 }
@@ -75,8 +61,8 @@ std::optional<Status> status_at(const plate::EdgePoint& at, const plate::EdgePoi
 PlateEdge edge_of(const std::vector<plate::EdgePoint>& piece, std::size_t i) {
   const plate::EdgePoint &a = piece[i], &b = piece[i + 1];
   PlateEdge edge;
-  edge.support = support_of(a.deflection_law.kind);
-  edge.clamped = a.rotation_law.kind == Kind::prescribed;
+  edge.support = support_of(a.deflection_law.spec->traits);
+  edge.clamped = a.rotation_law->prescribes;
   edge.samples = {sample(piece, i, 1), sample(piece, i + 1, -1)};
   edge.samples[0].status = status_at(a, b, edge.support), edge.samples[1].status = status_at(b, a, edge.support);
   edge.samples[1].share = 1;
@@ -126,13 +112,13 @@ void add_forces(PlatePicture& picture, const plate::Solution& s) {
       for (const plate::EdgePoint& p : piece) carried += std::abs(p.force);
   for (std::size_t k = 0; k < plate.supports.size(); ++k) {
     const auto& [x, y, law] = plate.supports[k];
-    if (law.kind == Kind::free || law.kind == Kind::load) continue;
+    if (!law->acts() || law->load) continue;
     const double force = plate::point_reaction(s, static_cast<int>(k));
     carried += std::abs(force);
     picture.forces.push_back({x, y, force});
-    const PlateSupport support = support_of(law.kind);
+    const PlateSupport support = support_of(law.spec->traits);
     const bool follows = support == PlateSupport::one_sided ? force > 0 : std::abs(force) < (1 - 1e-9) * reactions(law).high;
-    picture.supports.push_back({x, y, s.deflection(x, y), support, told(support, problem::status_of(law.kind, follows, force != 0))});
+    picture.supports.push_back({x, y, s.deflection(x, y), support, told(support, problem::status_of(law.spec->traits, follows, force != 0))});
   }
   for (const plate::CornerForce& corner : plate::corner_forces(s)) picture.forces.push_back({corner.x, corner.y, corner.force});
   std::erase_if(picture.forces, [&](const PlateForce& f) { return std::abs(f.force) <= 1e-3 * carried; });

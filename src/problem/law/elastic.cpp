@@ -3,7 +3,7 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
-#include "problem/law.hpp"
+#include "problem/law_choice.hpp"
 
 namespace dotyk::problem {
 namespace {
@@ -99,5 +99,71 @@ std::shared_ptr<const Law> limited(std::string name, std::vector<Limits> limits)
   }
   return std::make_shared<Elastic>(std::move(name), std::move(rows), false);
 }
+
+namespace {
+
+using Role = LawNumber::Role;
+
+constexpr LawNumber stiffness(const char* name = "k", const char* help = "stiffness, not negative") {
+  return {.name = name, .role = Role::stiffness, .help = help, .unit = "force/length, or moment of a rotation; on a part per length or area as well", .example = "100"};
+}
+
+constexpr LawNumber bound(const char* before = "") {
+  return {.name = "g", .role = Role::bound, .help = "greatest force, not negative", .unit = "force, or moment of a rotation; on a part per length or area", .example = "2", .before = before};
+}
+
+/// Rows whose force lies between −bound or 0 and the bound: springs, or rigid where the law is.
+std::shared_ptr<const Law> cut_off_rows(const LawChoice& law, double unit, const std::vector<double>& shares) {
+  const double k = law->rigid ? Law::kUnbounded : law.stiffness() / (unit * unit), most = law->breaks ? Law::kUnbounded : law.bound() / unit;
+  const auto part = [](double number, double share) { return std::isfinite(number) ? number * share : number; };
+  std::vector<Limits> rows;
+  for (const double share : shares) rows.push_back({part(k, share), law->pulls ? -part(most, share) : 0, part(most, share)});
+  return limited(law.spec->words, std::move(rows));
+}
+
+}  // namespace
+
+const LawSpec laws::elastic{
+    .name = "elastic", .words = "elastic", .help = "A spring: the reaction is -k v.", .traits = {.pushes = true, .pulls = true}, .numbers = {{stiffness()}},
+    .rows = [](const LawChoice& law, double unit, const std::vector<double>& shares) {
+      std::vector<double> stiffness;
+      for (const double share : shares) stiffness.push_back(law.stiffness() / (unit * unit) * share);
+      return problem::elastic(std::move(stiffness));
+    }};
+
+const LawSpec laws::one_sided_elastic{
+    .name = "one_sided_elastic", .words = "one-sided elastic",
+    .help = "A spring that only pushes: up against deflections below zero, down against slopes above zero, off the support on a part.",
+    .traits = {.pushes = true}, .numbers = {{stiffness()}}, .rows = cut_off_rows};
+
+const LawSpec laws::friction{
+    .name = "friction", .words = "friction", .help = "Rigid friction: holds up to a reaction of g, and slips against it.",
+    .traits = {.rigid = true, .pushes = true, .pulls = true, .bounded = true}, .numbers = {{bound()}}, .rows = cut_off_rows};
+
+const LawSpec laws::one_sided_friction{
+    .name = "one_sided_friction", .words = "one-sided friction", .help = "Rigid friction on one side: holds up to g where a rigid stop would push, and else not at all.",
+    .traits = {.rigid = true, .pushes = true, .bounded = true}, .numbers = {{bound()}}, .rows = cut_off_rows};
+
+const LawSpec laws::capped_elastic{
+    .name = "capped_elastic", .words = "capped elastic", .help = "A spring whose reaction is at most g, either way.",
+    .traits = {.pushes = true, .pulls = true, .bounded = true}, .numbers = {{stiffness(), bound("at most ")}}, .rows = cut_off_rows};
+
+const LawSpec laws::unequal_elastic{
+    .name = "unequal_elastic", .words = "unequal elastic",
+    .help = "A spring that pushes with one stiffness and pulls with another: the reaction is -k_push v or -k_pull v. It pushes where one_sided_elastic does: "
+            "up against deflections below zero, down against slopes above zero, off the support on a part.",
+    .traits = {.pushes = true, .pulls = true, .uneven = true},
+    .numbers = {{{.name = "k_push", .role = Role::stiffness, .help = "stiffness where it pushes, not negative", .unit = stiffness().unit, .example = "100", .after = " pushed"},
+                 {.name = "k_pull", .role = Role::pull, .help = "stiffness where it pulls, not negative", .unit = stiffness().unit, .example = "20", .after = " pulled"}}},
+    .rows = [](const LawChoice& law, double unit, const std::vector<double>& shares) {
+      std::vector<Springs> springs;
+      for (const double share : shares) springs.push_back({law.numbers[1] / (unit * unit) * share, law.numbers[0] / (unit * unit) * share});
+      return problem::unequal_elastic(std::move(springs));
+    }};
+
+const LawSpec laws::breaking{
+    .name = "breaking", .words = "breaking",
+    .help = "A spring that only pushes and breaks where its reaction would exceed g. Not monotone: a beam may have several solutions (s.branches), of a part one path is followed.",
+    .traits = {.pushes = true, .bounded = true, .breaks = true}, .numbers = {{stiffness(), bound("at most ")}}, .rows = cut_off_rows};
 
 }  // namespace dotyk::problem

@@ -3,7 +3,7 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
-#include "problem/law.hpp"
+#include "problem/law_choice.hpp"
 
 namespace dotyk::problem {
 namespace {
@@ -29,6 +29,11 @@ class PowerLaw final : public Law {
   }
 
   Interval multipliers(int row) const override { return {0, c_[row] > 0 ? kUnbounded : 0}; }
+  Response respond(int row, double x) const override {
+    return x > 0 ? Response{c_[row] * std::pow(x, m_), stiffness(c_[row], x)} : Response{0, 0};
+  }
+  double displacement(int row, double lambda) const override { return std::pow(lambda / c_[row], 1 / m_); }
+  std::vector<double> kinks(int) const override { return {0}; }
 
  private:
   double stiffness(double c, double x) const { return c * m_ * std::pow(x, m_ - 1); }
@@ -56,5 +61,18 @@ std::shared_ptr<const Law> power_law(std::vector<double> factors, double power) 
     if (!(c >= 0) || !std::isfinite(c)) throw InputError(text("compliance law: the factor is ", c, "; it must be zero or positive, and finite"));
   return std::make_shared<PowerLaw>(std::move(factors), power);
 }
+
+const LawSpec laws::compliance{
+    .name = "compliance", .words = "compliance", .help = "Asperities that are pressed flat: pushes with c (-v)^m against v < 0, and not at all otherwise.",
+    .traits = {.pushes = true},
+    .numbers = {{{.name = "c", .role = LawNumber::Role::factor, .help = "factor, not negative", .unit = "force/length^m; on a part per length or area as well", .example = "100"},
+                 {.name = "m", .role = LawNumber::Role::power, .help = "power", .example = "2", .least = 1, .usual = 2, .before = "power "}}},
+    .rows = [](const LawChoice& law, double unit, const std::vector<double>& shares) {
+      const double m = law.numbers[1], c = law.numbers[0] / std::pow(unit, m + 1);
+      std::vector<double> factors;
+      for (const double share : shares) factors.push_back(c * share);
+      return power_law(std::move(factors), m);
+    },
+    .named = true};
 
 }  // namespace dotyk::problem

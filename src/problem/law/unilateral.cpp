@@ -1,4 +1,4 @@
-#include "problem/law.hpp"
+#include "problem/law_choice.hpp"
 
 namespace dotyk::problem {
 namespace {
@@ -33,5 +33,23 @@ class Bilateral final : public Law {
 std::shared_ptr<const Law> unilateral() { return std::make_shared<Unilateral>(); }
 
 std::shared_ptr<const Law> bilateral() { return std::make_shared<Bilateral>(); }
+
+const LawSpec laws::free{.name = "free", .words = "free", .help = "A support that does nothing.", .traits = {}};
+
+const LawSpec laws::prescribed{
+    .name = "prescribed", .words = "prescribed", .help = "Prescribes the displacement.",
+    .traits = {.prescribes = true, .rigid = true, .pushes = true, .pulls = true},
+    .numbers = {{{.name = "v", .role = LawNumber::Role::displacement, .help = "the deflection, rotation or displacement", .unit = "length, or rad", .example = "-1", .least = -Law::kUnbounded, .usual = 0}}},
+    .rows = [](const LawChoice&, double, const std::vector<double>&) { return bilateral(); }};
+
+const LawSpec laws::load{
+    .name = "load", .words = "load", .help = "A load: a force, a moment on the rotation, or a pressure on a part.",
+    .traits = {.load = true, .pushes = true, .pulls = true},
+    .numbers = {{{.name = "f", .role = LawNumber::Role::force, .help = "up, a moment anticlockwise; of a part into the body, a pressure", .unit = "force, or moment; on a part per length or area", .example = "-1", .least = -Law::kUnbounded}}}};
+
+const LawSpec laws::signorini{
+    .name = "signorini", .words = "Signorini", .help = "A rigid stop: the deflection stays at or above zero, a slope at or below zero, a part does not enter the support.",
+    .traits = {.rigid = true, .pushes = true},
+    .rows = [](const LawChoice&, double, const std::vector<double>&) { return unilateral(); }};
 
 }  // namespace dotyk::problem

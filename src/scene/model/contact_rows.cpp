@@ -12,7 +12,6 @@ namespace dotyk::scene {
 
 using contact::tangents;
 using mesh::Point;
-using Kind = problem::SupportLaw::Kind;
 
 namespace {
 
@@ -29,7 +28,7 @@ class ContactRowMaker {
 
   void operator()() {
     normal();
-    if (contact_.friction == Friction::Kind::none && contact_.tangential.kind == Kind::free) return;
+    if (contact_.friction == Friction::Kind::none && !contact_.tangential->acts()) return;
     const std::vector<Candidate> points = nodal(contact_) ? nodal_points() : cell_points();
     for (int components = 1; components < dim_; ++components)
       for (const bool slips : {true, false}) add(points, components, slips);
@@ -57,7 +56,7 @@ class ContactRowMaker {
         pulls.push_back(pull(jump, contact_.rows[jump.row].normal));
         gap += jump.weight * contact_.rows[jump.row].gap;
       }
-      if (contact_.normal.kind == Kind::prescribed) gap -= contact_.normal.value;
+      gap -= contact_.normal.displacement();
       const bool none = pulls.empty() || (held[k] && nodal(contact_)) || !law;
       const int r = none ? -1 : builder_.add(first_, second_, pulls, gap, row.measure);
       model_.contact_row.back().push_back(r);
@@ -84,16 +83,16 @@ class ContactRowMaker {
   }
 
   void require_apart(const contact::ContactRow& row) {
-    if (contact_.normal.kind != Kind::signorini && contact_.normal.kind != Kind::prescribed) return;
+    if (!contact_.normal->stop() && !contact_.normal->prescribes) return;
     const std::optional<double> jump = jumps_.given(row);
     if (!jump) return;  // a partner further away moves
     const double gap = row.gap + mesh::dot(row.normal, model_.move.back()) - *jump;
     // Rounding of coordinates may leave a fixed node this far inside.
     const double rounding = 1e-9 * contact_.first.body->mesh->size();
-    if (contact_.normal.kind == Kind::prescribed && std::abs(gap - contact_.normal.value) > rounding)
+    if (contact_.normal->prescribes && std::abs(gap - contact_.normal.displacement()) > rounding)
       throw InputError(text(contact_.name, ": the node at ", point_text(contact_.first.body->mesh->node(row.node), dim_),
-                            " is fixed in the normal direction, ", gap, " off the other side; no displacement can make that the prescribed ", contact_.normal.value));
-    if (contact_.normal.kind == Kind::signorini && gap < -rounding)
+                            " is fixed in the normal direction, ", gap, " off the other side; no displacement can make that the prescribed ", contact_.normal.displacement()));
+    if (contact_.normal->stop() && gap < -rounding)
       throw InputError(text(contact_.name, ": the node at ",
                             point_text(contact_.first.body->mesh->node(row.node), dim_),
                             " is fixed in the normal direction and lies ", -gap,
@@ -120,7 +119,7 @@ class ContactRowMaker {
       double bound = 0, measure = 0;
       for (const contact::Term& node : nodes[k]) {
         const double weight = node.weight * contact_.rows[node.row].weight;
-        bound += springs ? contact_.tangential.value * weight : contact_.friction_value[node.row] * (given ? weight : 1);
+        bound += springs ? contact_.tangential.stiffness() * weight : contact_.friction_value[node.row] * (given ? weight : 1);
         measure += weight;
       }
       const int n = model_.contact_row.back()[k];

@@ -66,15 +66,14 @@ FreeJumps::FreeJumps(const Scene& scene, const std::vector<Body>& bodies, const 
 }
 
 FreeJumps::Side FreeJumps::side_of(const Body& body, const elasticity::Numbering& numbering) {
-  using Kind = problem::SupportLaw::Kind;
-  Side result{&numbering, {}};
+    Side result{&numbering, {}};
   for (const SlideRow& slide : body.slides) result.conditions[slide.node].push_back({slide.normal, 0});
   for (const LawSupport& law : body.laws)
     for (const contact::NodeSide& side : law.nodes) {
       if (side.own.size() > 1) continue;
-      if (law.normal.kind == Kind::prescribed) result.conditions[side.node].push_back({side.normal, -law.normal.value});
-      if (law.tangential.kind == Kind::prescribed)
-        for (const Point& t : contact::tangents(side.normal, body.dimension())) result.conditions[side.node].push_back({t, law.tangential.value});
+      if (law.normal->prescribes) result.conditions[side.node].push_back({side.normal, -law.normal.displacement()});
+      if (law.tangential->prescribes)
+        for (const Point& t : contact::tangents(side.normal, body.dimension())) result.conditions[side.node].push_back({t, law.tangential.displacement()});
     }
   return result;
 }

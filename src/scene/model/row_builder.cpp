@@ -11,8 +11,7 @@ namespace {
 
 using mesh::Point;
 using mesh::dot;
-using problem::SupportLaw;
-using Kind = SupportLaw::Kind;
+using problem::LawChoice;
 
 /// Rows of one LawSupport, as they are made.
 class SupportRowMaker {
@@ -23,7 +22,7 @@ class SupportRowMaker {
 
   std::vector<SupportRows> operator()() {
     if (problem::row_law(support_.normal)) normal();
-    if (problem::rubs(support_.tangential.kind))
+    if (support_.tangential->rubs())
       friction();
     else if (problem::row_law(support_.tangential))
       tangential();
@@ -36,27 +35,27 @@ class SupportRowMaker {
   }
 
   void normal() {
-    const SupportLaw& law = support_.normal;
+    const LawChoice& law = support_.normal;
     builder_.rows.open_group(name("normal"), law);
     for (std::size_t k = 0; k < rows_.size(); ++k) {
       const contact::NodeSide& side = support_.nodes[k];
-      rows_[k].normal = add(side, side.normal, law, law.kind == Kind::prescribed ? -law.value : 0, support_.breaks(k) ? 0 : side.weight);
+      rows_[k].normal = add(side, side.normal, law, -law.displacement(), support_.breaks(k) ? 0 : side.weight);
     }
   }
 
   void tangential() {
-    const SupportLaw& law = support_.tangential;
+    const LawChoice& law = support_.tangential;
     builder_.rows.open_group(name("tangential"), law);
     for (std::size_t k = 0; k < rows_.size(); ++k)
       for (const Point& t : contact::tangents(support_.nodes[k].normal, on_.dimension())) {
-        const int row = add(support_.nodes[k], t, law, law.kind == Kind::prescribed ? law.value : 0, support_.nodes[k].weight);
+        const int row = add(support_.nodes[k], t, law, law.displacement(), support_.nodes[k].weight);
         if (row >= 0) rows_[k].add(row, t);
       }
   }
 
   /// Points with one free tangent and points with two make two groups, because all points of a group have the same number of rows.
   void friction() {
-    const bool coulomb = support_.tangential.kind == Kind::coulomb;
+    const bool coulomb = support_.tangential->follows;
     for (int components = 1; components < on_.dimension(); ++components) {
       const int first = builder_.rows.open_friction();
       std::vector<double> bounds;
@@ -64,7 +63,7 @@ class SupportRowMaker {
       for (std::size_t k = 0; k < rows_.size(); ++k) {
         const contact::NodeSide& side = support_.nodes[k];
         const std::vector<Point> free = free_tangents(side);
-        const double value = support_.friction_value.empty() ? support_.tangential.value : support_.friction_value[k];
+        const double value = support_.friction_value.empty() ? support_.tangential.numbers[0] : support_.friction_value[k];
         if (static_cast<int>(free.size()) != components || value == 0 || (coulomb && rows_[k].normal < 0)) continue;
         for (const Point& t : free) rows_[k].add(add(side, t, support_.tangential, 0, side.weight), t);
         bounds.push_back(coulomb ? value : value * side.weight);
@@ -83,13 +82,13 @@ class SupportRowMaker {
   }
 
   /// The row direction·u = gap, or -1 where nothing moves.
-  int add(const contact::NodeSide& side, const Point& direction, const SupportLaw& law, double gap, double share) {
+  int add(const contact::NodeSide& side, const Point& direction, const LawChoice& law, double gap, double share) {
     if (moves(side, direction)) return builder_.add(body_, side.own, direction, gap, share);
     if (!unknown_along(model_.numbering[body_], side.own, direction, on_.dimension())) builder_.add(body_, side.own, direction, gap);  // no row; gap changes
     const double rounding = 1e-12 * on_.mesh->size();
-    if (law.kind == Kind::prescribed ? std::abs(gap) > rounding : law.kind == Kind::signorini && gap < -rounding)
+    if (law->prescribes ? std::abs(gap) > rounding : law->stop() && gap < -rounding)
       throw InputError(text("contradictory supports on '", on_.name, "': at the node ",
-                            point_text(on_.mesh->node(side.node), on_.dimension()), " the ", problem::support_name(law.kind), " law of part '", support_.part.name,
+                            point_text(on_.mesh->node(side.node), on_.dimension()), " the ", law.spec->words, " law of part '", support_.part.name,
                             "' and the displacement that other supports hold differ by ", std::abs(gap)));
     return -1;
   }
@@ -182,8 +181,8 @@ Point law_load(const LawSupport& support, const contact::NodeSide& side, int dim
   Point force{0, 0, 0};
   const Point t = contact::tangents(side.normal, dimension).front();
   for (int i = 0; i < dimension; ++i) {
-    if (support.normal.kind == Kind::load) force[i] -= support.normal.value * side.weight * side.normal[i];
-    if (support.tangential.kind == Kind::load) force[i] += support.tangential.value * side.weight * t[i];
+    force[i] -= support.normal.force() * side.weight * side.normal[i];
+    force[i] += support.tangential.force() * side.weight * t[i];
   }
   return force;
 }
@@ -203,7 +202,7 @@ double broken_energy(const Body& body) {
   double energy = 0;
   for (const LawSupport& s : body.laws)
     for (std::size_t k = 0; k < s.nodes.size(); ++k)
-      if (s.breaks(k) && s.normal.value > 0) energy += 0.5 * s.normal.limit * s.normal.limit / s.normal.value * s.nodes[k].weight;
+      if (s.breaks(k)) energy += problem::breaking_energy(s.normal) * s.nodes[k].weight;
   return energy;
 }
 

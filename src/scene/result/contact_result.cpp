@@ -33,7 +33,7 @@ Rubbing rubbing(const Contact& contact, const Model& model, int index, const sol
   const std::size_t count = contact.rows.size();
   Rubbing rubbing{std::vector<Point>(count, Point{0, 0, 0}), std::vector<char>(count, 0), std::vector<char>(count, 0)};
   std::vector<double> slipping(count, 0), sticking(count, 0);
-  const bool given = contact.friction == Friction::Kind::tresca, capped = contact.tangential.kind == problem::SupportLaw::Kind::capped_elastic;
+  const bool given = contact.friction == Friction::Kind::tresca, capped = contact.tangential->elastic() && contact.tangential->yields();
   for (const FrictionRows& rows : model.friction[index]) {
     bool slips = false;
     for (int i = 0; i < rows.count; ++i) slips = slips || (capped ? !result.active_sets.empty() && !result.active_sets.back()[rows.row[i]] : !result.slipping.empty() && result.slipping[rows.row[i]]);
@@ -107,7 +107,7 @@ double pressing(double here, double there) {
 /// Where it presses: a node's share, and next to nodes that do not press what the edge of contact between them leaves of it.
 double pressed_area(const Contact& contact, const std::vector<ContactNode>& nodes) {
   const auto neighbours = contact::neighbours(contact.rows);
-  const bool one_sided = contact.normal.kind == problem::SupportLaw::Kind::signorini;
+  const bool one_sided = contact.normal->stop();
   std::vector<double> at;
   for (std::size_t k = 0; k < nodes.size(); ++k)
     at.push_back(!one_sided || contact.rows[k].facets.empty() ? (nodes[k].status != problem::Status::open ? 1 : -1)
@@ -188,11 +188,10 @@ ContactResult Solution::contact(const Contact& asked) const {
     node.pressure = pressure[k];
     node.force = pressure[k] * row.weight;
     node.shear = rubbing.shear[k];
-    const auto kind = contact.normal.kind;
     const bool pulled = contact.friction == Friction::Kind::coulomb && node.pressure < 0;  // slides freely
     const bool follows = r >= 0 ? active(r) : node.pressure > 0;
-    if (kind != problem::SupportLaw::Kind::free && problem::status_of(kind, follows, node.pressure != 0) != problem::Status::open) node.status = problem::Status::closed;
-    if ((node.status == problem::Status::closed || kind == problem::SupportLaw::Kind::free) && rubbing.rubs[k])
+    if (contact.normal->acts() && problem::status_of(contact.normal.spec->traits, follows, node.pressure != 0) != problem::Status::open) node.status = problem::Status::closed;
+    if ((node.status == problem::Status::closed || !contact.normal->acts()) && rubbing.rubs[k])
       node.status = rubbing.slips[k] || pulled ? problem::Status::slip : problem::Status::stick;
     for (int i = 0; i < 3; ++i) {
       result.force[i] += force[k][i];

@@ -12,28 +12,7 @@ namespace {
 
 using algebra::Vector;
 using mesh::Point;
-using problem::SupportLaw;
-using Kind = SupportLaw::Kind;
-
-/// The stiffness per length or area of a law's spring where it acts, at x = −v; 0 of laws without a spring.
-double spring_stiffness(const SupportLaw& law, double x) {
-  switch (law.kind) {
-    case Kind::elastic:
-    case Kind::one_sided_elastic:
-    case Kind::capped_elastic:
-    case Kind::breaking: return law.value;
-    case Kind::unequal_elastic: return x < 0 ? law.pull : law.value;
-    case Kind::free:
-    case Kind::prescribed:
-    case Kind::load:
-    case Kind::signorini:
-    case Kind::friction:
-    case Kind::one_sided_friction:
-    case Kind::coulomb: return 0;
-    case Kind::compliance: return x > 0 ? law.value * law.power * std::pow(x, law.power - 1) : 0;
-  }
-  return 0;
-}
+using problem::LawChoice;
 
 double squared_of_laws(const Solution& at, int index, const std::vector<double>& v) {
   const Body& body = at.body(index);
@@ -43,11 +22,11 @@ double squared_of_laws(const Solution& at, int index, const std::vector<double>&
     const LawSupport& support = body.laws[s];
     for (std::size_t k = 0; k < support.nodes.size(); ++k) {
       const contact::NodeSide& side = support.nodes[k];
-      const auto add = [&](const SupportLaw& law, int row, const Point& direction) {
-        if (row < 0 || (law.kind != Kind::elastic && !at.active(row))) return;
+      const auto add = [&](const LawChoice& law, int row, const Point& direction) {
+        if (row < 0 || !law->elastic() || !at.active(row)) return;
         const double moved = mesh::dot(contact::mean(side.own, v, dim), direction);
         const double x = mesh::dot(contact::mean(side.own, at.displacement(index), dim), direction);
-        sum += side.weight * spring_stiffness(law, x) * moved * moved;
+        sum += side.weight * problem::row_law(law)->respond(0, x).slope * moved * moved;
       };
       const SupportRows& rows = at.model().support_row[index][s][k];
       if (!support.breaks(k)) add(support.normal, rows.normal, side.normal);
@@ -60,21 +39,7 @@ double squared_of_laws(const Solution& at, int index, const std::vector<double>&
 /// Of rows that hold, in units of the stiffness that they see; and of others, so that a body that slips or rocks freely has a matrix with an inverse.
 constexpr double kRigid = 1e4, kLoose = 1e-10;
 
-/// The reaction against x = −v, per length or area; 0 of laws that are not elastic.
-double reaction(const SupportLaw& law, double x) {
-  if (law.kind == Kind::compliance) return law.value * std::pow(std::max(0.0, x), law.power);
-  const bool pushes_only = law.kind == Kind::one_sided_elastic || law.kind == Kind::breaking;
-  const double force = spring_stiffness(law, x) * (pushes_only ? std::max(0.0, x) : x);
-  return law.kind == Kind::capped_elastic ? std::clamp(force, -law.limit, law.limit) : force;
-}
-
-/// The law's stiffness at x.
-double slope(const SupportLaw& law, double x) {
-  if (law.kind == Kind::elastic) return law.value;
-  return x != 0 ? (reaction(law, x * (1 + 1e-6)) - reaction(law, x)) / (1e-6 * x) : 0;
-}
-
-bool elastic(const SupportLaw& law) { return spring_stiffness(law, 1) > 0; }
+bool elastic(const LawChoice& law) { return law->elastic() && problem::bears(law); }
 
 /// What a facet's points say less than its nodes do, of one row.
 struct Share {
@@ -154,7 +119,7 @@ class Lumping {
   }
 
   /// `direction`: of tangents; null: each node's normal.
-  void add_row(int b, const LawSupport& support, std::size_t f, const std::vector<std::size_t>& sides, std::size_t side, const SupportLaw& law, int row,
+  void add_row(int b, const LawSupport& support, std::size_t f, const std::vector<std::size_t>& sides, std::size_t side, const LawChoice& law, int row,
                const Point* direction) {
     if (row < 0 || !elastic(law)) return;
     const Body& body = s_.body(b);
@@ -162,7 +127,8 @@ class Lumping {
       return mesh::dot(mesh::at_node(s_.displacement(b), support.nodes[k].node, body.dimension()), direction ? *direction : support.nodes[k].normal);
     };
     const double own = at_node(side);
-    spring_[row] = support.nodes[side].weight * slope(law, own);
+    const auto of_point = problem::row_law(law);  // per length or area
+    spring_[row] = support.nodes[side].weight * of_point->respond(0, own).slope;
     Share share{b, support.facets[f].cell, row, 0};
     elasticity::for_each_facet_point(*body.mesh, support.facets[f], [&](const elasticity::FacetPoint& p) {
       double x = 0, shape = 0;
@@ -170,7 +136,7 @@ class Lumping {
         x += p.shape[a] * at_node(sides[a]);
         if (sides[a] == side) shape = p.shape[a];
       }
-      share.defect += p.measure * shape * (reaction(law, x) - reaction(law, own));
+      share.defect += p.measure * shape * (of_point->respond(0, x).force - of_point->respond(0, own).force);
     });
     shares_.push_back(share);
   }

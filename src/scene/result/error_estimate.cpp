@@ -167,7 +167,7 @@ ErrorEstimate Solution::make_error_estimate() const {
     for (const contact::SurfaceFacet& f : surface_of(contact).facets) {
       const contact::Gram gram = contact::gram(*own.mesh, f.facet);
       const auto weight = elasticity::traction_weight(*own.mesh, own.material.at(f.facet.cell), f.facet);
-      if (contact.normal.kind == problem::SupportLaw::Kind::signorini) cells[f.facet.cell].complementarity += complementarity(f, gram, *results[c], weight);
+      if (contact.normal->stop()) cells[f.facet.cell].complementarity += complementarity(f, gram, *results[c], weight);
       // Slip is counted from the beginning: in a history only its first step's is the increment.
       if (contact.friction != Friction::Kind::none && past_.slip.size() == 0)
         cells[f.facet.cell].friction += slip_law(contact, f, gram, *results[c], weight);

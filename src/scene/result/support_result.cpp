@@ -11,7 +11,6 @@ namespace dotyk::scene {
 using mesh::Point;
 using mesh::dot;
 using problem::Status;
-using Kind = problem::SupportLaw::Kind;
 
 namespace {
 
@@ -69,13 +68,13 @@ SupportNode Solution::support_node(const LawSupport& support, std::size_t k, con
   node.pressure = -dot(sum, side.normal) / side.weight;
   for (int i = 0; i < 3; ++i) node.shear[i] = (sum[i] + node.pressure * side.weight * side.normal[i]) / side.weight;
   node.broken = support.breaks(k);
-  if (rows.normal >= 0 || support.normal.kind == Kind::load)
-    node.status = problem::status_of(support.normal.kind, rows.normal >= 0 && active(rows.normal), node.pressure != 0);
-  if (rows.count == 0 && support.tangential.kind != Kind::load) return node;
-  const bool rubs = problem::rubs(support.tangential.kind);
-  const bool pulled = support.tangential.kind == Kind::coulomb && node.pressure < 0;  // slides freely
+  if (rows.normal >= 0 || support.normal->load)
+    node.status = problem::status_of(support.normal.spec->traits, rows.normal >= 0 && active(rows.normal), node.pressure != 0);
+  if (rows.count == 0 && !support.tangential->load) return node;
+  const bool rubs = support.tangential->rubs();
+  const bool pulled = support.tangential->follows && node.pressure < 0;  // slides freely
   const auto slips = [&](int r) { return pulled || (rubs ? !result_.slipping.empty() && result_.slipping[r] : !active(r)); };
-  node.tangential = problem::status_of(support.tangential.kind, std::none_of(rows.row, rows.row + rows.count, slips), true);
+  node.tangential = problem::status_of(support.tangential.spec->traits, std::none_of(rows.row, rows.row + rows.count, slips), true);
   return node;
 }
 

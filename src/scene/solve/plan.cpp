@@ -30,12 +30,11 @@ std::string describe_contact(const Contact& contact) {
     return text("  ", contact.name, ": ", contact.glued.size(), pairing[static_cast<int>(contact.pairing)]);
   const char* multipliers =
       contact.discretisation.multipliers == contact::Multipliers::p1_p0 ? ", multipliers P1-P0" : "";
-  using LawKind = problem::SupportLaw::Kind;
-  const std::string normal = contact.normal.kind == LawKind::signorini ? "" : "normal " + problem::describe(contact.normal) + ", ";
+  const std::string normal = contact.normal->stop() ? "" : "normal " + problem::describe(contact.normal) + ", ";
   return text("  ", contact.name, ": ", contact.rows.size(), " rows, ", normal,
               contact.friction == Friction::Kind::tresca    ? std::all_of(contact.friction_value.begin(), contact.friction_value.end(), [](double g) { return std::isinf(g); }) ? "no slip" : "given friction"
               : contact.friction == Friction::Kind::coulomb ? "Coulomb friction"
-              : contact.tangential.kind == LawKind::free    ? "frictionless"
+              : !contact.tangential->acts()                 ? "frictionless"
                                                             : "tangential " + problem::describe(contact.tangential),
               how[static_cast<int>(contact.pairing)], multipliers);
 }

@@ -43,7 +43,7 @@ void require_same_rows(const Model& model, const Model& before) {
     same = b < before.support_row.size() && model.support_row[b].size() == before.support_row[b].size();
     for (std::size_t s = 0; same && s < model.support_row[b].size(); ++s)
       same = model.bodies[b].laws[s].part == before.bodies[b].laws[s].part &&
-             model.bodies[b].laws[s].tangential.kind == before.bodies[b].laws[s].tangential.kind;
+             model.bodies[b].laws[s].tangential.spec == before.bodies[b].laws[s].tangential.spec;
   }
   if (!same)
     throw InputError("the solution given as 'after' has other contact rows than the scene; it must be of the same "
@@ -56,7 +56,6 @@ void require_same_rows(const Model& model, const Model& before) {
 // exceeds it. What is broken stays so, over the steps of a history as well. Where at the end each broken node is
 // displaced by more than what breaks it, the state is a local minimum of the energy; there may be others, lower ones.
 
-using Kind = problem::SupportLaw::Kind;
 
 constexpr double kEqual = 1e-9;  // forces whose relative difference may be the solver's
 
@@ -65,7 +64,7 @@ template <class Visit>
 void for_each_breaking(const std::vector<Body>& bodies, Visit&& visit) {
   for (std::size_t b = 0; b < bodies.size(); ++b)
     for (std::size_t s = 0; s < bodies[b].laws.size(); ++s)
-      if (bodies[b].laws[s].normal.kind == Kind::breaking)
+      if (bodies[b].laws[s].normal->breaks)
         for (std::size_t k = 0; k < bodies[b].laws[s].nodes.size(); ++k) visit(b, s, k);
 }
 
@@ -82,7 +81,7 @@ int break_worst(const Model& model, const algebra::Vector& lambda, std::vector<B
     const LawSupport& on = model.bodies[b].laws[s];
     const int row = model.support_row[b][s][k].normal;
     if (row < 0 || on.breaks(k) || !(lambda[row] > 0)) return 0.0;
-    return lambda[row] / (on.normal.limit * on.nodes[k].weight);
+    return lambda[row] / (on.normal.bound() * on.nodes[k].weight);
   };
   double worst = 0;
   for_each_breaking(model.bodies, [&](auto b, auto s, auto k) { worst = std::max(worst, overload(b, s, k)); });
@@ -103,7 +102,7 @@ void take_broken(const std::vector<Body>& from, std::vector<Body>& to) {
   for (std::size_t b = 0; b < from.size() && b < to.size(); ++b)
     for (const LawSupport& known : from[b].laws)
       for (LawSupport& on : to[b].laws)
-        if (on.part == known.part && on.normal.kind == Kind::breaking) on.broken = known.broken;
+        if (on.part == known.part && on.normal->breaks) on.broken = known.broken;
 }
 
 /// What the cascade did, for the solution's reason; empty where nothing is broken.
@@ -116,7 +115,7 @@ std::string cascade_note(const Model& model, const algebra::Vector& u, int round
     if (!on.breaks(k)) return;
     const double against = mesh::dot(mesh::at_node(moved[b], on.nodes[k].node, model.bodies[b].dimension()), on.nodes[k].normal);
     ++broken;
-    back += on.normal.value * against < (1 - kEqual) * on.normal.limit;
+    back += on.normal.stiffness() * against < (1 - kEqual) * on.normal.bound();
   });
   if (broken == 0) return "";
   std::string note = text("; ", broken, broken == 1 ? " node is" : " nodes are", " broken, those of this load in ", rounds,

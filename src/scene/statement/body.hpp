@@ -15,7 +15,7 @@
 #include "elasticity/load.hpp"
 #include "elasticity/material.hpp"
 #include "mesh/mesh.hpp"
-#include "problem/support_law.hpp"
+#include "problem/law_choice.hpp"
 
 namespace dotyk::scene {
 
@@ -103,8 +103,8 @@ struct LawSupport {
   PartMark part;
   std::vector<mesh::Facet> facets;
   std::vector<contact::NodeSide> nodes;
-  problem::SupportLaw normal, tangential;
-  std::vector<double> friction_value = {};  ///< by node, of friction that varies; empty: tangential.value
+  problem::LawChoice normal, tangential;
+  std::vector<double> friction_value = {};  ///< by node, of friction that varies; empty: the law's own number
   std::vector<char> broken = {};  ///< of a breaking normal law: the nodes where it is; empty: none
   bool breaks(std::size_t node) const { return node < broken.size() && broken[node]; }
 };
@@ -221,9 +221,9 @@ void spring(Part& part, const std::array<elasticity::ScalarField, 3>& stiffness)
 /// was, where Coulomb friction has no normal law, a number is negative or not finite, a tangential law has no meaning (one-sided; in space also a load, a
 /// displacement other than 0 and capped elastic), a facet of the part has a law in that direction already, or
 /// other supports hold that direction at all nodes of the part.
-void support(Part& part, const problem::SupportLaw& normal, const problem::SupportLaw& tangential, const elasticity::ScalarField& friction = {});
+void support(Part& part, const problem::LawChoice& normal, const problem::LawChoice& tangential, const elasticity::ScalarField& friction = {});
 /// Throws InputError where a law cannot be tangential: one that tells directions, and in space what is not isotropic.
-void require_tangential(const problem::SupportLaw& law, int dimension);
+void require_tangential(const problem::LawChoice& law, int dimension);
 /// Throws InputError where supports hold a direction, normal or tangential, that a law of the body is about, at all
 /// nodes of its part.
 void require_laws_free(const Body& body, const elasticity::Numbering& numbering);

@@ -73,16 +73,15 @@ void refuse_repeated_shape(const Scene& scene, const Contact& fresh) {
 
 /// Throws InputError where an interface of two parts, or of a part and a rigid shape, cannot have the law.
 void require_of_interface(const Contact& contact) {
-  const auto refuse = [&](const problem::SupportLaw& law, const char* direction, const std::string& why) {
-    throw InputError(text("the ", contact.name, " cannot have the ", direction, " law ", problem::support_name(law.kind), ": ", why));
+  const auto refuse = [&](const problem::LawChoice& law, const char* direction, const std::string& why) {
+    throw InputError(text("the ", contact.name, " cannot have the ", direction, " law ", law.spec->words, ": ", why));
   };
-  using Kind = problem::SupportLaw::Kind;
-  problem::require_valid(contact.normal);
-  if (contact.normal.kind == Kind::load) refuse(contact.normal, "normal", "a given pressure is no law of an interface; part:pressure on each part is the same");
-  if (contact.normal.kind == Kind::breaking) refuse(contact.normal, "normal", "only supports break (part:support); its force is not monotone, and a contact's nodes have no memory of it");
+    problem::require_valid(contact.normal);
+  if (contact.normal->load) refuse(contact.normal, "normal", "a given pressure is no law of an interface; part:pressure on each part is the same");
+  if (contact.normal->breaks) refuse(contact.normal, "normal", "only supports break (part:support); its force is not monotone, and a contact's nodes have no memory of it");
   require_tangential(contact.tangential, contact.first.body->dimension());
-  if (contact.tangential.kind == Kind::load) refuse(contact.tangential, "tangential", "a given shear is no law of an interface; part:load on each part is the same");
-  if (contact.tangential.kind == Kind::prescribed && contact.tangential.value != 0) refuse(contact.tangential, "tangential", "a given slip is not known; prescribed(0) is no slip");
+  if (contact.tangential->load) refuse(contact.tangential, "tangential", "a given shear is no law of an interface; part:load on each part is the same");
+  if (contact.tangential.displacement() != 0) refuse(contact.tangential, "tangential", "a given slip is not known; prescribed(0) is no slip");
   if (contact.friction == Friction::Kind::coulomb && !problem::row_law(contact.normal))
     refuse(contact.normal, "normal", "Coulomb's bound is mu times the normal force, and here there is none; take given friction");
 }
@@ -92,8 +91,8 @@ void set_laws(Contact& contact, const InterfaceLaws& laws) {
   contact.normal = laws.normal;
   contact.tangential = laws.tangential;
   Friction friction = laws.friction;
-  if (contact.tangential.kind == problem::SupportLaw::Kind::prescribed) friction = {Friction::Kind::tresca, [](const mesh::Point&) { return INFINITY; }};
-  if (contact.tangential.kind == problem::SupportLaw::Kind::friction) friction = {Friction::Kind::tresca, [g = contact.tangential.value](const mesh::Point&) { return g; }};
+  if (contact.tangential->prescribes) friction = {Friction::Kind::tresca, [](const mesh::Point&) { return INFINITY; }};
+  if (contact.tangential->rubs() && !contact.tangential->follows) friction = {Friction::Kind::tresca, [g = contact.tangential.bound()](const mesh::Point&) { return g; }};
   contact.friction = friction.kind;
   require_of_interface(contact);
   if (friction.kind == Friction::Kind::none) return;
@@ -123,8 +122,8 @@ void set_discretisation(Contact& contact, const Discretisation& discretisation) 
     throw InputError("'friction_ends' is about the cells of friction on a line, with multipliers = \"P1-P0\"; it is given "
                      "without them");
   if (discretisation.multipliers == contact::Multipliers::nodal) return;
-  const bool elastic = contact.tangential.kind == problem::SupportLaw::Kind::elastic || contact.tangential.kind == problem::SupportLaw::Kind::capped_elastic;
-  if (contact.normal.kind != problem::SupportLaw::Kind::signorini || elastic)
+  const bool elastic = contact.tangential->elastic();
+  if (!contact.normal->stop() || elastic)
     throw InputError("multipliers = \"P1-P0\" are for Signorini's law with given friction: other laws tell the force at a node by what happens there; take \"nodal\"");
   for (const Part* part : {&contact.first, &contact.second})
     if (part->body && part->body->mesh->topology().order == 2)

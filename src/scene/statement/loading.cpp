@@ -66,8 +66,8 @@ Body Loading::applied_to(const Body& body) const {
     for (mesh::Point& value : support.values)
       for (double& v : value) v *= of(support.load_case);
   for (LawSupport& support : scaled.laws)
-    for (problem::SupportLaw* law : {&support.normal, &support.tangential})
-      if (law->kind == problem::SupportLaw::Kind::prescribed || law->kind == problem::SupportLaw::Kind::load) law->value *= rest;
+    for (problem::LawChoice* law : {&support.normal, &support.tangential})
+      law->scale(rest);
   add_law_loads(scaled);
   for (FacetLoad& load : scaled.facet_loads) {
     for (double& v : load.values) v *= of(load.load_case);

@@ -24,8 +24,8 @@ struct Friction {
 /// tangents the slip of the first part, and the reaction on it pushes towards v > 0. With Signorini's normal law contact opens and closes; friction is a
 /// tangential law of its own, so that only one of the two may be given.
 struct InterfaceLaws {
-  problem::SupportLaw normal{problem::SupportLaw::Kind::signorini};
-  problem::SupportLaw tangential{};
+  problem::LawChoice normal{&problem::laws::signorini};
+  problem::LawChoice tangential{};
   Friction friction{};
   InterfaceLaws() = default;
   InterfaceLaws(Friction given) : friction(std::move(given)) {}
@@ -52,8 +52,8 @@ struct Contact {
   Part first;
   Part second;       ///< second.body is null against a rigid shape
   std::vector<contact::ContactRow> rows;   ///< of a contact
-  problem::SupportLaw normal{problem::SupportLaw::Kind::signorini};  ///< see InterfaceLaws
-  problem::SupportLaw tangential{};        ///< elastic, perhaps capped; free where there is friction or nothing
+  problem::LawChoice normal{&problem::laws::signorini};  ///< see InterfaceLaws
+  problem::LawChoice tangential{};        ///< elastic, perhaps capped; free where there is friction or nothing
   Friction::Kind friction = Friction::Kind::none;
   std::vector<double> friction_value;      ///< of each row: bound per length or area, or coefficient
   Discretisation discretisation;

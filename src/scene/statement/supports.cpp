@@ -10,8 +10,7 @@ namespace dotyk::scene {
 namespace {
 
 using mesh::Point;
-using problem::SupportLaw;
-using Kind = SupportLaw::Kind;
+using problem::LawChoice;
 
 /// A support of all the part's nodes, nothing prescribed yet.
 Support on_nodes(const Part& part, SupportKind kind) {
@@ -37,38 +36,38 @@ bool shares_facet(const LawSupport& a, const LawSupport& b) {
   return std::any_of(b.facets.begin(), b.facets.end(), [&](const mesh::Facet& f) { return of_a.contains(f); });
 }
 
-bool given(const SupportLaw& law) { return law.kind != Kind::free; }
+bool given(const LawChoice& law) { return law->acts(); }
 
 void require_no_other(const Body& body, const LawSupport& added) {
   for (const LawSupport& known : body.laws) {
     const bool normal = given(known.normal) && given(added.normal);
     if ((!normal && !(given(known.tangential) && given(added.tangential))) || !shares_facet(known, added)) continue;
     throw InputError(text("part '", added.part.name, "' of '", body.name, "' has a ", normal ? "normal" : "tangential", " law already, ",
-                          problem::support_name(normal ? known.normal.kind : known.tangential.kind),
+                          (normal ? known.normal : known.tangential).spec->words,
                           known.part == added.part ? "" : ", as part of '" + known.part.name + "'"));
   }
 }
 
 /// Is a law along these directions, or one of them, of use at one node at least?
 template <class Directions>
-void require_free(const Body& body, const elasticity::Numbering& numbering, const LawSupport& on, const char* which, const SupportLaw& law,
+void require_free(const Body& body, const elasticity::Numbering& numbering, const LawSupport& on, const char* which, const LawChoice& law,
                   const Directions& directions) {
   if (!given(law)) return;
   for (const contact::NodeSide& side : on.nodes)
     for (const Point& d : directions(side))
       if (moves(body, numbering, side, d)) return;
   throw InputError(text("contradictory supports on '", body.name, "': the ", which, " displacement of part '", on.part.name,
-                        "' is held at each of its nodes, and has the law ", problem::support_name(law.kind), " as well"));
+                        "' is held at each of its nodes, and has the law ", law.spec->words, " as well"));
 }
 
 /// Throws InputError for Coulomb friction without a normal law; under a given pressure its bound is given.
 void settle_coulomb(const Body& body, LawSupport& on) {
-  if (on.tangential.kind != Kind::coulomb) return;
+  if (!on.tangential->follows) return;
   if (!given(on.normal))
     throw InputError(text("part '", on.part.name, "' of '", body.name, "' has Coulomb friction and no normal law: its bound is mu times the normal reaction; give 'normal', or given friction"));
-  if (on.normal.kind != Kind::load) return;
-  const double pressure = std::max(0.0, on.normal.value);
-  on.tangential = {Kind::friction, on.tangential.value * pressure};
+  if (!on.normal->load) return;
+  const double pressure = std::max(0.0, on.normal.force());
+  on.tangential = {&problem::laws::friction, {on.tangential.numbers[0] * pressure}};
   for (double& mu : on.friction_value) mu *= pressure;
 }
 
@@ -165,21 +164,21 @@ void displace(Part& part, const std::array<elasticity::ScalarField, 3>& componen
   hold(*part.body, [&](Body& body) { body.supports.push_back(std::move(support)); });
 }
 
-void require_tangential(const SupportLaw& law, int dimension) {
+void require_tangential(const LawChoice& law, int dimension) {
   const bool plane = dimension == 2;
   const char* allowed = plane ? "free, prescribed, load, elastic, friction and capped_elastic"
                               : "free, prescribed(0), elastic and friction, which have no direction of their own";
   const auto refuse = [&](const std::string& why) {
-    throw InputError(text("a ", problem::support_name(law.kind), " law cannot be tangential: ", why,
+    throw InputError(text("a ", law.spec->words, " law cannot be tangential: ", why,
                           "; a tangential law ", plane ? "in the plane" : "in space", " is one of ", allowed));
   };
   problem::require_valid(law);
-  if (problem::one_sided(law.kind)) refuse("slip to either side is alike, and nothing is open");
-  if (problem::directed(law.kind)) refuse("slip to either side is alike");
+  if (law->one_sided()) refuse("slip to either side is alike, and nothing is open");
+  if (law->directed()) refuse("slip to either side is alike");
   if (plane) return;
-  if (law.kind == Kind::load) refuse("it does not say along which tangent (part:load does)");
-  if (law.kind == Kind::prescribed && law.value != 0) refuse("it does not say along which tangent (part:displace does)");
-  if (law.kind == Kind::capped_elastic) refuse("a spring that slips is not among the laws of two components");
+  if (law->load) refuse("it does not say along which tangent (part:load does)");
+  if (law.displacement() != 0) refuse("it does not say along which tangent (part:displace does)");
+  if (law->elastic() && law->yields()) refuse("a spring that slips is not among the laws of two components");
 }
 
 std::vector<contact::NodeSide> law_sides(std::vector<contact::NodeSide> sides) {
@@ -220,7 +219,7 @@ std::string describe(const LawSupport& support) {
   return out;
 }
 
-void support(Part& part, const SupportLaw& normal, const SupportLaw& tangential, const elasticity::ScalarField& friction) {
+void support(Part& part, const LawChoice& normal, const LawChoice& tangential, const elasticity::ScalarField& friction) {
   Body& body = *part.body;
   problem::require_valid(normal);
   require_tangential(tangential, body.dimension());

@@ -163,8 +163,7 @@ class ContactChanges {
   }
 
   void require_unmeasured() const {
-    using Kind = problem::SupportLaw::Kind;
-    if (contact_.normal.kind != Kind::signorini || contact_.tangential.kind != Kind::free)
+        if (!contact_.normal->stop() || contact_.tangential->acts())
       throw InputError(contact_.name + " has laws per length or area and moves: how its nodes' shares change these is not known; take Signorini's law with "
                                        "given or Coulomb friction, or keep its nodes at rest");
   }

@@ -5,18 +5,18 @@
 #include "solver/core/verdict.hpp"
 
 namespace dotyk::script {
-using problem::SupportLaw;
+using problem::LawChoice;
 
-Key law_key(const char* name, const char* help) { return key::object<SupportLaw>(name, help).otherwise("free"); }
+Key law_key(const char* name, const char* help) { return key::object<LawChoice>(name, help).otherwise("free"); }
 
-SupportLaw law(const Arguments& from, const char* name) { return from.has(name) ? *from.object<SupportLaw>(name) : SupportLaw{}; }
+LawChoice law(const Arguments& from, const char* name) { return from.has(name) ? *from.object<LawChoice>(name) : LawChoice{}; }
 
 bool stands_somewhere(const Arguments& from, const char* name) {
   const std::string at = std::string(name) + "_at";
   if (!from.has(at)) return false;
-  const SupportLaw::Kind kind = law(from, name).kind;
-  if (kind == SupportLaw::Kind::free || kind == SupportLaw::Kind::load)
-    throw InputError(text("'", at, "' is where the law of '", name, "' stands, and that is ", problem::support_name(kind), "; give a law that acts somewhere, as dotyk.law.signorini()"));
+  const LawChoice given = law(from, name);
+  if (!given->acts() || given->load)
+    throw InputError(text("'", at, "' is where the law of '", name, "' stands, and that is ", given.spec->words, "; give a law that acts somewhere, as dotyk.law.signorini()"));
   return true;
 }
 
@@ -48,7 +48,7 @@ void take_foundation(Call& call, Beam& beam) {
   const std::optional<Field> at = call.has("foundation_at") ? std::optional<Field>(call.field("foundation_at")) : std::nullopt;
   for (const double x : beam::nodes(beam)) {
     const std::vector<double> point{x};
-    const auto given = call.holds<SupportLaw>("foundation") ? call.object<SupportLaw>("foundation") : call.function("foundation").object<SupportLaw>(point);
+    const auto given = call.holds<LawChoice>("foundation") ? call.object<LawChoice>("foundation") : call.function("foundation").object<LawChoice>(point);
     beam.foundation.push_back({*given, at ? (*at)(point)[0] : 0});
   }
 }
@@ -185,7 +185,7 @@ void bind_beam(Library& library) {
                   "  left = { deflection = dotyk.law.signorini() }, right = { deflection = dotyk.law.signorini() } }\n"
                   "print(dotyk.solve(b):deflection(0.5))",
        .arguments = {key::table(
-           {key::either("foundation", {key::object<SupportLaw>("", ""), key::function("", "")},
+           {key::either("foundation", {key::object<LawChoice>("", ""), key::function("", "")},
                         "a law per length about the deflection, or a function of x that gives one; taken at the nodes, each for half of the cells about it").otherwise("none"),
             key::field("foundation_at", "where it stands: the law is about the deflection less this; a number or a function of x").unit("length").otherwise("0"),
             key::positive("length", "of the beam, from x = 0").unit("length").into(&Beam::length),

@@ -7,7 +7,7 @@ namespace {
 
 using figure::BeamPanel;
 using figure::LawSide;
-using problem::SupportLaw;
+using problem::LawChoice;
 
 template <class Enum>
 using Names = std::vector<std::pair<const char*, Enum>>;
@@ -40,7 +40,7 @@ std::string render_law(Call& call) {
   return draw(call, figure::compose(figure::view(s), find_support(s.beam(), call, "support"), side(call), read_units(call)));
 }
 
-std::string render_support_law(Call& call) { return draw(call, figure::compose(*call.self<SupportLaw>(), side(call), read_units(call))); }
+std::string render_support_law(Call& call) { return draw(call, figure::compose(*call.self<LawChoice>(), side(call), read_units(call))); }
 
 // As it is now, with the load along it.
 figure::BeamView view_now(const CalledLoads& called) {
@@ -117,7 +117,7 @@ void bind_beam_figure(Library& library) {
                .example = "s:render_law{ file = \"a.png\", support = \"right\", of = \"deflection\" }",
                .arguments = {key::table(page_keys({support_key("support").required(), of_key()}, "{1100, 480}"))},
                .run = render_law});
-  library.extend<SupportLaw>().method(
+  library.extend<LawChoice>().method(
       {.name = "law:render",
        .help = "Draws the law, its reaction against the displacement, and its superpotential into a file, and returns its name. "
                "One-sided laws of a rotation resist slopes above zero.",

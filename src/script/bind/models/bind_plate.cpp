@@ -9,14 +9,14 @@ namespace dotyk::script {
 namespace {
 
 using plate::Plate;
-using problem::SupportLaw;
+using problem::LawChoice;
 
 plate::Field in_the_plane(const script::Field& field) {
   return [field](double x, double y) { return field(std::vector<double>{x, y})[0]; };
 }
 
 Key edge_law_key(const char* name, const char* help) {
-  return key::either(name, {key::object<SupportLaw>("", "a law of dotyk.law"), key::function("", "f(x, y) → a law")}, help).otherwise("free");
+  return key::either(name, {key::object<LawChoice>("", "a law of dotyk.law"), key::function("", "f(x, y) → a law")}, help).otherwise("free");
 }
 
 std::vector<Key> edge_keys() {
@@ -26,9 +26,9 @@ std::vector<Key> edge_keys() {
 
 plate::LawField edge_law(const Arguments& from, const char* name) {
   if (!from.has(name)) return {};
-  if (from.holds<SupportLaw>(name)) return [law = *from.object<SupportLaw>(name)](double, double) { return law; };
+  if (from.holds<LawChoice>(name)) return [law = *from.object<LawChoice>(name)](double, double) { return law; };
   const Function function = from.function(name);
-  return [function](double x, double y) { return *function.object<SupportLaw>(std::vector<double>{x, y}); };
+  return [function](double x, double y) { return *function.object<LawChoice>(std::vector<double>{x, y}); };
 }
 
 plate::EdgeSupport edge(const Arguments& from, std::string part, std::vector<mesh::Facet> facets) {

@@ -16,13 +16,13 @@ struct BeamResult {
   const beam::Solution& solution() const { return *branches[shown].solution; }
 };
 
-template <> struct Wrapped<problem::SupportLaw> : Called<"law"> {};
+template <> struct Wrapped<problem::LawChoice> : Called<"law"> {};
 template <> struct Wrapped<beam::Beam> : Called<"beam"> {};
 template <> struct Wrapped<BeamResult> : Called<"beam_solution"> {};
 
 // A key for a law of dotyk.law; the law given, else free.
 Key law_key(const char* name, const char* help);
-problem::SupportLaw law(const Arguments& from, const char* name);
+problem::LawChoice law(const Arguments& from, const char* name);
 // Is the key for where the law `name` stands given? Throws InputError where there is no such law that could be there.
 bool stands_somewhere(const Arguments& from, const char* name);
 // A constant, or a function, which of(its field) makes of it; as they are where the key is not given.

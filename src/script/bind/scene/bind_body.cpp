@@ -127,10 +127,9 @@ Self part_support(Call& call) {
   }
   const bool varies = !call.object<scene::Friction>("tangential")->value;
   const scene::Friction rubbing = friction(call, "tangential", part->body->dimension());
-  using Kind = problem::SupportLaw::Kind;
-  problem::SupportLaw tangential{rubbing.kind == scene::Friction::Kind::tresca ? Kind::friction : Kind::coulomb};
-  if (!varies) tangential.value = rubbing.value({});
-  if (std::isinf(tangential.value)) tangential = {Kind::prescribed};
+  problem::LawChoice tangential{rubbing.kind == scene::Friction::Kind::tresca ? &problem::laws::friction : &problem::laws::coulomb};
+  if (!varies) tangential.numbers[0] = rubbing.value({});
+  if (std::isinf(tangential.numbers[0])) tangential = {&problem::laws::prescribed};
   scene::support(*part, law(call, "normal"), tangential, varies ? rubbing.value : elasticity::ScalarField());
   return call.give_self();
 }
@@ -242,7 +241,7 @@ void bind_part(Library& library) {
                        "exceed their limit most break first, until none does; s.reason tells what became of it. Results: solution:support, "
                        "solution:reaction.",
                .example = "block:part\"bottom\":support{ normal = dotyk.law.one_sided_elastic(1e3), tangential = dotyk.law.friction(2) }",
-               .arguments = {key::table({key::object<problem::SupportLaw>("normal", "the law along the normal").otherwise("free"),
+               .arguments = {key::table({key::object<problem::LawChoice>("normal", "the law along the normal").otherwise("free"),
                                          tangential_key("the law along the tangents")})},
                .run = part_support})
       .text([](const Part& p) { return text("part ", p.label(), ": ", p.facets.size(), " facets"); });

@@ -22,8 +22,8 @@ std::shared_ptr<Scene> make_scene(Call& call) { return scene::make_scene(call.it
 scene::InterfaceLaws laws(const Call& call, const Scene& scene) {
   if (call.has("friction") && call.has("tangential")) throw InputError("'friction' is a tangential law; it is given with 'tangential'");
   scene::InterfaceLaws laws;
-  if (call.has("normal")) laws.normal = *call.object<problem::SupportLaw>("normal");
-  if (call.holds<problem::SupportLaw>("tangential")) laws.tangential = *call.object<problem::SupportLaw>("tangential");
+  if (call.has("normal")) laws.normal = *call.object<problem::LawChoice>("normal");
+  if (call.holds<problem::LawChoice>("tangential")) laws.tangential = *call.object<problem::LawChoice>("tangential");
   laws.friction = friction(call, call.has("friction") ? "friction" : "tangential", scene.dimension());
   return laws;
 }
@@ -224,7 +224,7 @@ void bind_scene(Library& library) {
                .example = "local wall = dotyk.rigid.plane{ point = {1,0}, normal = {-1,0} }\n"
                           "local w = scene:contact{ upper:part \"right\", rigid = wall }\n"
                           "local c = scene:contact{ upper:part \"bottom\", lower:part \"top\", pairing = \"mortar\" }",
-               .arguments = {key::table({key::object<problem::SupportLaw>("normal", "a law of dotyk.law but load and breaking").otherwise("signorini"),
+               .arguments = {key::table({key::object<problem::LawChoice>("normal", "a law of dotyk.law but load and breaking").otherwise("signorini"),
                                          tangential_key("a law of dotyk.friction, or of dotyk.law: free, prescribed(0), elastic, friction, in 2-D capped_elastic"),
                                          key::object<scene::Friction>("friction", "dotyk.friction.tresca(g) or dotyk.friction.coulomb(mu), short for tangential").otherwise("none"),
                                          key::object<Rigid>("rigid", "a rigid obstacle in place of the second part"),

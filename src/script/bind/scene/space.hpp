@@ -100,7 +100,7 @@ inline scene::Friction friction(const Call& call, const char* name, int dimensio
 
 // A key for a law along the tangents.
 inline Key tangential_key(const char* help) {
-  return key::either("tangential", {key::object<problem::SupportLaw>("", ""), key::object<scene::Friction>("", "")}, help).otherwise("free");
+  return key::either("tangential", {key::object<problem::LawChoice>("", ""), key::object<scene::Friction>("", "")}, help).otherwise("free");
 }
 
 // Throws InputError where memory has no room for the mesh refined so many times, or solvers of one machine for its unknowns.
