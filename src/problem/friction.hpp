@@ -19,6 +19,8 @@ class Friction {
   virtual double bound(int point, double normal) const = 0;
   /// ∂b/∂λ_n for λ_n > 0.
   virtual double bound_slope(int point) const = 0;
+  /// Does the bound follow the normal force? Then the problem is that of no energy.
+  bool follows(int point) const { return bound_slope(point) > 0; }
 };
 
 /// Given friction (Tresca): b = g, a force for each point (bound per area times the point's share).

@@ -100,8 +100,8 @@ std::shared_ptr<const Law> limited(std::string name, std::vector<Limits> limits)
 
 /// Normal compliance, φ = c x⁺^(m+1)/(m+1), λ = c x⁺^m (Martins and Oden 1987; Kikuchi and Oden 1988, chapter 11): asperities that are pressed
 /// flat. P(y) = y − ρx with x ≥ 0 from c x^m + ρx = y; φ*(λ) = m/(m+1) λ (λ/c)^(1/m). λ(x) is no line: Law::springs is absent.
-/// `factors[row]`: c in force per displacement to the power m; throws InputError unless each is finite and ≥ 0, and m ≥ 1.
-std::shared_ptr<const Law> power_law(std::vector<double> factors, double power);
+/// `factors[row]`: c in force per displacement to the power m = `powers[row]`; throws InputError unless each is finite and ≥ 0, and m ≥ 1.
+std::shared_ptr<const Law> power_law(std::vector<double> factors, std::vector<double> powers);
 
 /// Is φ* known to be two parabolas, so that λ(x) has a kink at λ = 0?
 bool kinked_at_zero(const Law& law, int row);

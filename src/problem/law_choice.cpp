@@ -29,8 +29,26 @@ double LawChoice::number(LawNumber::Role role, double otherwise) const {
 std::string describe(const LawChoice& law) {
   std::string out = law.spec->words;
   for (int i = 0; i < law.spec->count(); ++i)
-    out += text(i == 0 ? " " : ", ", law.spec->numbers[i].before, law.numbers[i], law.spec->numbers[i].after);
+    out += text(i == 0 ? " " : ", ", law.spec->numbers[i].before, std::isnan(law.numbers[i]) ? "a function" : text(law.numbers[i]), law.spec->numbers[i].after);
   return out;
+}
+
+std::string describe(const LawAlong& law) {
+  return law.at.empty() ? describe(law.law) : text(law.law.spec->words, ", which varies");
+}
+
+void LawAlong::scale(double factor) {
+  law.scale(factor);
+  for (auto& numbers : at) {
+    LawChoice here{law.spec, numbers};
+    here.scale(factor);
+    numbers = here.numbers;
+  }
+}
+
+bool LawAlong::moves() const {
+  if (!law->prescribes) return false;
+  return at.empty() ? law.numbers[0] != 0 : std::any_of(at.begin(), at.end(), [](const auto& numbers) { return numbers[0] != 0; });
 }
 
 Status status_of(const LawTraits& law, bool follows, bool bears) {
@@ -39,22 +57,25 @@ Status status_of(const LawTraits& law, bool follows, bool bears) {
   return follows || law.load || !law.directed() ? Status::closed : Status::open;
 }
 
-void require_valid(const LawChoice& law) {
+void require_valid(const LawChoice& law, const std::string& where) {
   constexpr double kLeast = 1e-300;  // such numbers have no inverse, or lose digits in a product with a length: what is made of them is 0 here, not there
   for (int i = 0; i < law.spec->count(); ++i) {
     const LawNumber& n = law.spec->numbers[i];
     const double value = law.numbers[i];
-    if (!std::isfinite(value) || value < n.least)
-      throw InputError(text(law.spec->words, " law: ", n.name, " is ", value, "; it must be ",
+    const bool no_slip = law->rubs() && value == Law::kUnbounded;
+    if ((!std::isfinite(value) && !no_slip) || value < n.least)
+      throw InputError(text(law.spec->words, " law: ", n.name, " is ", std::isnan(value) ? "not a number" : text(value), where, "; it must be ",
                             n.least == 0 ? "zero or positive, and " : n.least > 0 ? text(n.least, " or more, and ") : "", "finite"));
     if (law->elastic() && value > 0 && value < kLeast && n.role != LawNumber::Role::bound)
       throw InputError(text(law.spec->words, " law: the stiffness ", value, " is lost in rounding beside any body's; leave that away, or make it stiffer"));
   }
 }
 
-std::shared_ptr<const Law> row_law(const LawChoice& law, double unit, const std::vector<double>& shares) {
-  return law.spec->rows ? law.spec->rows(law, unit, shares) : nullptr;
+std::shared_ptr<const Law> row_law(std::span<const LawRow> rows, double unit) {
+  return rows.empty() || !rows.front().law.spec->rows ? nullptr : rows.front().law.spec->rows(rows, unit);
 }
+
+std::shared_ptr<const Law> row_law(const LawChoice& law) { return row_law(std::array{LawRow{law}}); }
 
 bool bears(const LawChoice& law) {
   const auto row = row_law(law);

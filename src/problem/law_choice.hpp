@@ -3,6 +3,7 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,26 @@ struct LawChoice {
   bool operator==(const LawChoice&) const = default;
 };
 
+/// A row's law and the length or area that it stands for where the law's numbers are per length or area.
+struct LawRow {
+  LawChoice law;
+  double share = 1;
+};
+
+/// One law along a part: its numbers at each place, or the same at all.
+struct LawAlong {
+  LawChoice law;
+  std::vector<std::array<double, 4>> at = {};  ///< by place; empty: alike
+
+  const LawTraits* operator->() const { return &law.spec->traits; }
+  LawChoice operator[](std::size_t place) const { return at.empty() ? law : LawChoice{law.spec, at[place]}; }
+  void scale(double factor);
+  /// Does it prescribe any displacement but 0?
+  bool moves() const;
+  bool operator==(const LawAlong&) const = default;
+};
+std::string describe(const LawAlong& law);
+
 /// "elastic 100", "capped elastic 100, at most 2", "unequal elastic 100 pushed, 20 pulled".
 std::string describe(const LawChoice& law);
 
@@ -38,16 +59,16 @@ std::string describe(const LawChoice& law);
 /// closed where it holds or springs back, slip where it bears what it gives at most; one that yields sticks where it does not slip.
 Status status_of(const LawTraits& law, bool follows, bool bears);
 
-/// Throws InputError where a number is not finite or less than it may be.
-void require_valid(const LawChoice& law);
+/// Throws InputError where a number is not finite (an infinite bound of friction: no slip) or less than it may be; `where` is told with it.
+void require_valid(const LawChoice& law, const std::string& where = "");
 
 /// The law of rows x = −w (`prescribed`: x = value·unit − w), w = v·unit, whose multipliers are λ = r/unit: with a
 /// length for unit, rotations and moments are told as displacements and forces. A breaking support is one that has
 /// not broken yet: one-sided elastic. Null for `free` and `load`, which have no row, and for `coulomb`.
 ///
-/// One row for each of `shares`, the length or area that it stands for where the law's numbers are per length or area:
-/// stiffnesses and bounds are multiplied by it. A share of 0 bears nothing, but where the law is rigid.
-std::shared_ptr<const Law> row_law(const LawChoice& law, double unit = 1, const std::vector<double>& shares = {1});
+/// All rows are of one entry of the table. Stiffnesses and bounds are multiplied by the share; a share of 0 bears nothing, but where the law is rigid.
+std::shared_ptr<const Law> row_law(std::span<const LawRow> rows, double unit = 1);
+std::shared_ptr<const Law> row_law(const LawChoice& law);
 
 /// By its numbers: can its rows bear a force; and is it a spring that bears towards one side alone?
 bool bears(const LawChoice& law);

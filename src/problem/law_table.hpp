@@ -11,7 +11,7 @@
 
 namespace dotyk::problem {
 
-struct LawChoice;
+struct LawRow;
 
 /// A number of a law: how it is named, told and checked.
 struct LawNumber {
@@ -51,6 +51,8 @@ struct LawTraits {
   constexpr bool yields() const { return bounded && !breaks; }
   /// Friction of two tangential components: problem::Friction rather than a Law.
   constexpr bool rubs() const { return rigid && bounded && pushes && pulls; }
+  /// Such friction of a given bound.
+  constexpr bool tresca() const { return rubs() && !follows; }
 };
 
 /// One law of the table: its name, its numbers, its traits, and the Law of its rows.
@@ -61,7 +63,7 @@ struct LawSpec {
   LawTraits traits;
   std::array<LawNumber, 4> numbers = {};  ///< those without a name are none
   /// See row_law(); null where it has no rows of its own.
-  std::shared_ptr<const Law> (*rows)(const LawChoice& law, double unit, const std::vector<double>& shares) = nullptr;
+  std::shared_ptr<const Law> (*rows)(std::span<const LawRow> rows, double unit) = nullptr;
   bool named = false;  ///< in Lua its numbers are given by name, in a table
 
   int count() const;

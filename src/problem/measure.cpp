@@ -84,7 +84,7 @@ void Measure::take_rows(const Problem& problem) {
   const auto pulled = [&](int r) { return std::isfinite(problem.c[r]) ? -stiffness_[r] * problem.c[r] : -std::numeric_limits<double>::max(); };
   for (const auto& [law, k, r] : problem.scalar_rows()) at_rest[r] = law.project(k, pulled(r), stiffness_[r]).lambda;
   for (const auto& [group, k, first, n] : problem.friction_points()) {
-    const double bound = group.law->bound_slope(k) > 0 ? std::numeric_limits<double>::infinity() : group.bound(k, at_rest);
+    const double bound = group.law->follows(k) ? std::numeric_limits<double>::infinity() : group.bound(k, at_rest);
     Vector y(group.components);
     for (int i = 0; i < group.components; ++i) y[i] = pulled(first + i);
     at_rest.segment(first, group.components) = disc_factor(y.norm(), bound) * y;

@@ -18,8 +18,8 @@ int Rows::open_friction() {
   return count();
 }
 
-int Rows::add(double c, double share) {
-  if (open_) ++problem_.groups.back().count, shares_.push_back(share);
+int Rows::add(double c, double share, const LawChoice* own) {
+  if (open_) ++problem_.groups.back().count, law_rows_.push_back({own ? *own : law_, share});
   any_ = false;
   c_.push_back(c);
   return count() - 1;
@@ -31,9 +31,9 @@ int Rows::add(const std::vector<std::pair<int, double>>& entries, double c, doub
 }
 
 void Rows::close_group() {
-  if (open_ && shares_.empty()) problem_.groups.pop_back();
-  else if (open_ && by_share_) problem_.groups.back().law = row_law(law_, unit_, shares_);
-  shares_.clear();
+  if (open_ && law_rows_.empty()) problem_.groups.pop_back();
+  else if (open_ && by_share_) problem_.groups.back().law = row_law(law_rows_, unit_);
+  law_rows_.clear();
   open_ = by_share_ = false;
 }
 

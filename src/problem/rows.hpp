@@ -17,7 +17,7 @@ class Rows {
 
   /// Rows added from now on are under this law.
   void open_group(std::string name, std::shared_ptr<const Law> law);
-  /// Or under this one about v·unit, each for the share that it is added with: see row_law().
+  /// Or under this one about v·unit, each for the share that it is added with, and with numbers of its own where it has them: see row_law().
   void open_group(std::string name, const LawChoice& law, double unit = 1);
   /// Rows added from now on are tangential, under a friction law of Problem::friction; returns the next row.
   int open_friction();
@@ -29,7 +29,7 @@ class Rows {
   /// Has the next row an entry?
   bool any() const { return any_; }
   /// Ends a row x = Σ entries·u − c, even one without entries; returns its number.
-  int add(double c, double share = 1);
+  int add(double c, double share = 1, const LawChoice* own = nullptr);
   /// Such a row at once.
   int add(const std::vector<std::pair<int, double>>& entries, double c, double share = 1);
   int count() const { return static_cast<int>(c_.size()); }
@@ -45,7 +45,8 @@ class Rows {
   bool by_share_ = false, any_ = false;
   LawChoice law_;
   double unit_ = 1;
-  std::vector<double> shares_, c_;
+  std::vector<LawRow> law_rows_;
+  std::vector<double> c_;
   algebra::Triplets entries_;
 };
 

@@ -77,7 +77,7 @@ bool coercive_without_friction(const Problem& problem) {
 bool has_coulomb(const Problem& problem) {
   for (const FrictionGroup& group : problem.friction)
     for (int k = 0; k < group.points(); ++k)
-      if (group.law->bound_slope(k) > 0) return true;
+      if (group.law->follows(k)) return true;
   return false;
 }
 

@@ -41,7 +41,7 @@ double Stepping::Group::stored(const Fields& fields, const Forces& loads) const 
   double sum = 0.5 * fields.u.dot(model->K * fields.u) + 0.5 * fields.theta.dot(model->capacity * fields.theta);
   for (const Part& part : model->parts)
     for (const Held& held : part.held)
-      sum += problem::row_law(held.law, held.unit)->energy(0, held.given(loads.supports) - held.turn * fields.u[held.unknown]);
+      sum += problem::row_law(std::array{problem::LawRow{held.law}}, held.unit)->energy(0, held.given(loads.supports) - held.turn * fields.u[held.unknown]);
   return sum;
 }
 

@@ -133,7 +133,7 @@ TEST_CASE("arrows of the shear are alike on both sides, have the greatest, and t
   auto bottom = scene::named_part(block, "bottom");
   scene::fix(bottom, {true, true, true});
   const auto s = scene::make_scene({block});
-  const scene::Friction friction{scene::Friction::Kind::coulomb, [](const mesh::Point&) { return 0.2; }};
+  const scene::GivenLaw friction{problem::laws::coulomb, [](const mesh::Point&) { return 0.2; }};
   const auto contact = scene::add_contact(*s, scene::named_part(block, "top"), contact::RigidBall{{0, 49.9, 0}, 50}, {}, true, friction);
   const auto solution = solved(s);
   const ScenePicture picture = picture_of(*solution, 1);
@@ -161,7 +161,7 @@ TEST_CASE("arrows of the shear stay between the ends of the contact line") {
   auto top = scene::named_part(block, "top");
   scene::load(top, [](const mesh::Point& x) { return mesh::Point{-0.3 * x[0], -1 - x[0], 0}; });
   const auto s = scene::make_scene({block});
-  const scene::Friction friction{scene::Friction::Kind::coulomb, [](const mesh::Point&) { return 0.5; }};
+  const scene::GivenLaw friction{problem::laws::coulomb, [](const mesh::Point&) { return 0.5; }};
   scene::add_contact(*s, scene::named_part(block, "bottom"), contact::RigidPlane{{0, 0, 0}, {0, 1, 0}}, {}, false, friction);
   const ScenePicture picture = picture_of(*solved(s), 1);
   const auto [left, right] = std::ranges::minmax(picture.contacts[0].nodes, {}, [](const ContactNode& n) { return drawn(n, 1)[0]; });
@@ -219,7 +219,7 @@ TEST_CASE("the ground of springs stays, what does not act stays with it") {
   std::erase_if(patch.facets, [&](mesh::Facet f) { return strip->mesh->facet_centre(f)[0] > 0.1; });
   patch.name = "patch";
   scene::slide(left);
-  scene::support(bottom, {&laws::one_sided_elastic, 1.7}, {});
+  scene::support(bottom, problem::LawChoice{&problem::laws::one_sided_elastic, 1.7}, {});
   scene::pressure(patch, [](const mesh::Point&) { return 0.5; });
   const auto s = scene::make_scene({strip});
   const auto solution = solved(s);
@@ -294,7 +294,7 @@ TEST_CASE("a map of statuses has windows, and its markers tell what was solved")
   scene::load(top, [](const mesh::Point&) { return mesh::Point{3, 0, -5}; });
   const auto s = scene::make_scene({block});
   const auto contact = scene::add_contact(*s, scene::named_part(block, "bottom"), contact::RigidPlane{{0, 0, 0}, {0, 0, 1}}, {}, false,
-                                         scene::Friction{scene::Friction::Kind::coulomb, [](const mesh::Point&) { return 0.2; }});
+                                         scene::GivenLaw{problem::laws::coulomb, [](const mesh::Point&) { return 0.2; }});
   const auto solution = solved(s);
   ScenePicture map = compose_map(*solution, *contact, FieldChoice::pressure);
   map.file = "map.png";

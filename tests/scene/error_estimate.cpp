@@ -24,7 +24,7 @@ std::shared_ptr<scene::Body> body(const std::string& name, const std::shared_ptr
 std::shared_ptr<scene::Solution> solve(const std::shared_ptr<scene::Scene>& s) {
   Monitor quiet;
   for (const auto& contact : s->contacts)
-    if (contact->friction != scene::Friction::Kind::none) return scene::solve(s, solver::Newton{}, {}, quiet);
+    if (contact->tangential->rubs()) return scene::solve(s, solver::Newton{}, {}, quiet);
   return scene::solve(s, solver::Pdas{}, {}, quiet);
 }
 
@@ -89,7 +89,7 @@ contact::RigidGap gap(int dim, elasticity::ScalarField value) {
 double radius_squared(const mesh::Point& x, int dim) { return x[0] * x[0] + (dim == 3 ? x[1] * x[1] : 0); }
 
 /// A rigid parabola pressed into a slab, with friction or without.
-Make hertz(int dim, scene::Friction friction = {}) {
+Make hertz(int dim, scene::GivenLaw friction = {}) {
   return [=](const Meshes& m) {
     auto b = body("slab", m[0]);
     test::fix(b, "bottom");
@@ -183,7 +183,7 @@ Make founded(int dim) {
     auto b = body("bar", m[0]);
     test::springs(b, "left", {200, 200, 200});
     auto bottom = test::part(b, "bottom");
-    scene::support(bottom, {&problem::laws::one_sided_elastic, 500}, {});
+    scene::support(bottom, problem::LawChoice{&problem::laws::one_sided_elastic, 500}, {});
     auto middle = scene::chosen_part(b, "middle", [=](const mesh::Point& x, const mesh::Point& n) { return n[dim - 1] > 0.9 && x[0] > 1 && x[0] < 2; });
     scene::pressure(middle, [](const mesh::Point& x) { return 5 * (x[0] - 1) * (2 - x[0]); });
     return scene::make_scene({b});
@@ -201,8 +201,8 @@ mesh::Point down(int dim) {
 TEST_CASE("effectivity lies between 0.5 and 3: smooth, with corners, with contact and friction, two bodies, two materials" * doctest::test_suite("large")) {
   for (const int dim : {2, 3}) {
     const int n = dim == 2 ? 16 : 4, rounds = dim == 2 ? 3 : 2;
-    const auto tresca = scene::Friction{scene::Friction::Kind::tresca, [](const mesh::Point&) { return 2.0; }};
-    const auto coulomb = scene::Friction{scene::Friction::Kind::coulomb, [](const mesh::Point&) { return 0.3; }};
+    const auto tresca = scene::GivenLaw{problem::laws::friction, [](const mesh::Point&) { return 2.0; }};
+    const auto coulomb = scene::GivenLaw{problem::laws::coulomb, [](const mesh::Point&) { return 0.3; }};
     const std::tuple<const char*, Make, std::vector<mesh::Mesh>> cases[] = {
         {"cantilever", pulled(dim, "left", "right", down(dim)), {bar(dim)}},
         {"re-entrant corner", pulled(dim, "left", "bottom", {1, 0, 0}), {corner(dim)}},
@@ -300,7 +300,7 @@ TEST_CASE("a block that tilts on elastic laws: what these lose by acting at node
           const auto held = [&](int n) {
             const auto b = test::block("block", dim, mesh::Family::p1, n);
             auto bottom = test::part(b, "bottom");
-            scene::support(bottom, law(k), {&problem::laws::elastic, k});
+            scene::support(bottom, law(k), problem::LawChoice{&problem::laws::elastic, k});
             test::pull(b, "top", [=](const mesh::Point&) { return dim == 2 ? mesh::Point{aside, -1, 0} : mesh::Point{aside, 0, -1}; });
             return solve(scene::make_scene({b}));
           };

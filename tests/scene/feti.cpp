@@ -24,7 +24,7 @@ void check_same(const scene::Solution& s, const scene::Solution& exact, double t
 }
 
 /// A block on another, pressed down and drawn sideways; held at its left side, or by contact alone.
-std::shared_ptr<scene::Scene> two_blocks(int dimension, mesh::Family family, const scene::Friction& friction, bool held,
+std::shared_ptr<scene::Scene> two_blocks(int dimension, mesh::Family family, const scene::GivenLaw& friction, bool held,
                                          int n = 4) {
   const auto lower = test::block("lower", dimension, family, n), upper = test::block("upper", dimension, family, n, 1.0, 100);
   const char *top = "top", *bottom = "bottom";
@@ -76,9 +76,9 @@ TEST_CASE("without contact a body cut into pieces has the linear solution, presc
 }
 
 TEST_CASE("given and Coulomb friction: FETI finds what Newton's method finds") {
-  using Kind = scene::Friction::Kind;
+  namespace laws = dotyk::problem::laws;
   for (const int dimension : {2, 3})
-    for (const auto& law : {friction(Kind::tresca, 0.7), friction(Kind::coulomb, 0.12)}) {
+    for (const auto& law : {friction(&laws::friction, 0.7), friction(&laws::coulomb, 0.12)}) {
       const auto s = two_blocks(dimension, mesh::Family::q1, law, true);
       const auto exact = test::solve_by(s, solver::Newton{});
       REQUIRE(exact->result().converged);

@@ -74,9 +74,9 @@ TEST_CASE("displacements out of equilibrium are not called a solution") {
 }
 
 TEST_CASE("loads of any size: the solution is in proportion") {
-  using Kind = scene::Friction::Kind;
+  namespace laws = dotyk::problem::laws;
   for (const int dimension : {2, 3})
-    for (const auto kind : {Kind::none, Kind::tresca, Kind::coulomb}) {
+    for (const auto kind : {&laws::free, &laws::friction, &laws::coulomb}) {
       const auto of = [&](double size) {
         const auto lower = test::block("lower", dimension, mesh::Family::q1, 3), upper = test::block("upper", dimension, mesh::Family::q1, 3, 1.0, 100);
         test::fix(lower, "bottom");
@@ -85,8 +85,8 @@ TEST_CASE("loads of any size: the solution is in proportion") {
           return dimension == 2 ? Point{size, size * (-10 + 4 * x[0]), 0} : Point{0.8 * size, 0.5 * size, size * (-10 + 4 * x[0])};
         });
         auto s = scene::make_scene({lower, upper});
-        const double value = kind == Kind::tresca ? 0.7 * size : kind == Kind::coulomb ? 0.12 : 0;
-        scene::add_contact(*s, test::part(upper, "bottom"), test::part(lower, "top"), {}, {kind, [=](const Point&) { return value; }});
+        const double value = kind == &laws::friction ? 0.7 * size : kind == &laws::coulomb ? 0.12 : 0;
+        scene::add_contact(*s, test::part(upper, "bottom"), test::part(lower, "top"), {}, {*kind, [=](const Point&) { return value; }});
         return solve_by(s, feti(5, 1e-9));
       };
       const auto one = of(1);

@@ -18,8 +18,8 @@ std::shared_ptr<scene::Scene> blocks_in_space(mesh::Family family, double tresca
   if (tresca == 0) test::fix(upper, "left", {true, true, false});
   test::pull(upper, "top", [=](const Point& x) { return Point{tresca, 0.3 * tresca, -10 + 16 * x[0]}; });
   auto s = scene::make_scene({lower, upper});
-  scene::Friction friction;
-  if (tresca > 0) friction = {scene::Friction::Kind::tresca, [=](const Point& x) { return tresca * (0.4 + 1.6 * x[1]); }};
+  scene::GivenLaw friction;
+  if (tresca > 0) friction = {problem::laws::friction, [=](const Point& x) { return tresca * (0.4 + 1.6 * x[1]); }};
   scene::add_contact(*s, test::part(upper, "bottom"), test::part(lower, "top"), {}, friction);
   return s;
 }

@@ -21,7 +21,7 @@ struct Blocks {
 };
 
 /// C2 and T2 of the reference values: a free block on a fixed one, pulled sideways.
-Blocks blocks(int n, const scene::Friction& friction, Point traction = {2, -10, 0}) {
+Blocks blocks(int n, const scene::GivenLaw& friction, Point traction = {2, -10, 0}) {
   const auto half = [&](const char* name, double y) {
     const double from[2] = {0, y}, to[2] = {2, y + 1};
     const int cells[2] = {n, n / 2};
@@ -101,7 +101,7 @@ TEST_CASE("the Coulomb punch in space has the values of other codes") {
 TEST_CASE("no friction, and friction that cannot slip") {
   // Pressed straight down and held sideways, so that every case has a solution.
   for (int dim : {2, 3}) {
-    const auto make = [&](const scene::Friction& friction, bool glued = false) {
+    const auto make = [&](const scene::GivenLaw& friction, bool glued = false) {
       const auto lower = test::block("lower", dim, mesh::Family::q1, 3), upper = test::block("upper", dim, mesh::Family::q1, 3, 1, 400);
       test::fix(lower, "bottom");
       test::fix(upper, "left");
@@ -181,7 +181,7 @@ TEST_CASE("given friction that jumps: nothing where it is zero, each node within
   const double infinite = std::numeric_limits<double>::infinity();
   for (const double high : {10.0, infinite}) {
     const auto bound = [=](const Point& x) { return x[0] < 0.9 ? 0 : x[0] < 1.6 ? 1.5 : high; };
-    const auto b = blocks(32, {scene::Friction::Kind::tresca, bound});
+    const auto b = blocks(32, {problem::laws::friction, bound});
     const auto s = solve_by_default(b.scene);
     REQUIRE_MESSAGE(s->result().converged, s->result().reason);
     const auto c = s->contact(*b.contact);

@@ -61,14 +61,14 @@ assert(tostring(solver.pdas{ kernel = "screws", screws = { 3, 1 }, ordering = "m
 
 -- Bounds and coefficients.
 for _, law in ipairs{ dotyk.friction.tresca, dotyk.friction.coulomb } do
-  refused(function() law(0/0) end, "'value' must be a finite number, got nan (not a number)")
-  refused(function() law(-1) end, "'value' must be a number of at least 0", "got the number -1")
+  refused(function() law(0/0) end, "must be a finite number, got nan (not a number)")
+  refused(function() law(-1) end, "must be a number of at least 0", "got the number -1")
   refused(function() law "2" end, "or a function, got the string \"2\"")
   refused(function() law{ 1 } end, "or a function, got a table")
 end
 refused(function() dotyk.friction.tresca(-1/0) end, "got the number -inf")
-refused(function() dotyk.friction.coulomb(1/0) end, "'value' must be a finite number, got inf")
-assert(tostring(dotyk.friction.tresca(1/0)) == "given friction, bound inf")
+refused(function() dotyk.friction.coulomb(1/0) end, "'mu' must be a finite number, got inf")
+assert(tostring(dotyk.friction.tresca(1/0)) == "law: friction inf")
 
 -- Each that the refusal names.
 local _, message = pcall(function() solver.pdas{}:solve(scene) end)

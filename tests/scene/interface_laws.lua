@@ -185,5 +185,5 @@ refuse("'friction' is a tangential law; it is given with 'tangential'", { tangen
 refuse("are for Signorini's law", { normal = l.elastic(1), multipliers = "P1-P0" })
 local alone <const> = box("alone", { 0, 0 }, { 1, 1 }, { 2, 2 }, "Q1")
 check.error(function() alone:part"bottom":support{ tangential = dotyk.friction.coulomb(0.1) } end, "has Coulomb friction and no normal law")
-check.error(function() alone:part"bottom":support{ normal = l.signorini(), tangential = dotyk.friction.coulomb(function() return -1 end) } end, "the friction is -1 at (0, 0)")
+check.error(function() alone:part"bottom":support{ normal = l.signorini(), tangential = dotyk.friction.coulomb(function() return -1 end) } end, "mu is -1 at (0, 0); it must be zero or positive")
 check.error(function() l.compliance{ c = 1, m = 0.5 } end, "m")

@@ -41,7 +41,7 @@ struct Ladder {
     scene = scene::make_scene({body});
     const auto lean = [&](const char* part, Point normal, double mu) {
       return scene::add_contact(*scene, test::part(body, part), contact::RigidPlane{{0, 0, 0}, normal}, {}, false,
-                                friction(scene::Friction::Kind::coulomb, mu));
+                                friction(&problem::laws::coulomb, mu));
     };
     floor = lean("left", {0, 1, 0}, mu_floor);
     wall = lean("right", {1, 0, 0}, mu_wall);
@@ -103,7 +103,7 @@ TEST_CASE("a block between two walls is held up by given friction alone, up to 2
         for (const double side : {-1.0, 1.0})
           walls.push_back(scene::add_contact(*scene, test::part(block, side < 0 ? "left" : "right"),
                                              contact::RigidGap{{side, 0, 0}, [](const Point&) { return -0.001; }}, {}, false,
-                                             friction(scene::Friction::Kind::tresca, g)));
+                                             friction(&problem::laws::friction, g)));
         CHECK(solvable(scene) == (part < 1));
         if (part > 1) continue;
         Monitor quiet;

@@ -194,7 +194,7 @@ TEST_CASE("a slide on a circle may grow with it, not become an ellipse") {
 TEST_CASE("supports by laws and rigid gaps must rest") {
   const auto b = test::block("b", 2, mesh::Family::p1, 3);
   auto right = test::part(b, "right");
-  scene::support(right, {&problem::laws::elastic, 10}, {});
+  scene::support(right, problem::LawChoice{&problem::laws::elastic, 10}, {});
   const auto s = scene::make_scene({b});
   scene::add_contact(*s, test::part(b, "top"), contact::RigidGap{{0, 1, 0}, [](const Point&) { return 0.1; }}, {}, false);
   CHECK_NOTHROW(scene::require_differentiable(*s, {field(*b, [](const Point& x) { return Point{0, (1 - x[0]) * (1 - x[1]), 0}; })}));

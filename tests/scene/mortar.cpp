@@ -23,7 +23,7 @@ constexpr double kExact = 1e-11;
 /// Blocks of n and m cells along each edge of their own on top of each other, turned by an angle in the plane of the first and
 /// the last axis, free to widen; the upper one pressed. The upper's bottom is the first part, or the lower's top.
 Stack stack(int dim, Family one, Family other, int n, int m, std::optional<Pairing> pairing, double angle = 0, bool upper_first = true,
-            const scene::Friction& friction = {}) {
+            const scene::GivenLaw& friction = {}) {
   test::BlockPair blocks = test::block_pair(dim, one, other, n, m, angle);
   Stack s;
   s.low = test::body("low", std::move(blocks.low), 210, 0.3);
@@ -139,7 +139,7 @@ TEST_CASE("moments balance: the contact's forces on both bodies have one resulta
 }
 
 TEST_CASE("on matching nodes mortar is the nodal contact, with friction too") {
-  const scene::Friction coulomb{scene::Friction::Kind::coulomb, [](const Point&) { return 0.3; }};
+  const scene::GivenLaw coulomb{problem::laws::coulomb, [](const Point&) { return 0.3; }};
   for (int dim : {2, 3})
     for (const Family family : test::kFamilies) {
       std::vector<algebra::Vector> u;
@@ -177,7 +177,7 @@ TEST_CASE("friction that sticks, on nodes that do not match: a uniform state wit
       scene::displace(bottom, given);
       const auto scene = scene::make_scene({low, high});
       const auto contact = scene::add_contact(*scene, test::part(high, "bottom"), test::part(low, "top"), {},
-                                              {scene::Friction::Kind::coulomb, [](const Point&) { return 0.4; }});
+                                              {problem::laws::coulomb, [](const Point&) { return 0.4; }});
       Monitor quiet;
       const auto solution = scene::solve(scene, solver::Newton{}, {}, quiet);
       REQUIRE_MESSAGE(solution->result().converged, solution->result().reason);
@@ -209,7 +209,7 @@ TEST_CASE("friction on nodes that do not match: sticks or slips as it is driven,
       scene::displace(top, given);
       const auto scene = scene::make_scene({low, high});
       const auto contact = scene::add_contact(*scene, test::part(high, "bottom"), test::part(low, "top"), {},
-                                              {scene::Friction::Kind::coulomb, [](const Point&) { return 0.3; }});
+                                              {problem::laws::coulomb, [](const Point&) { return 0.3; }});
       Monitor quiet;
       const auto solution = scene::solve(scene, solver::Newton{}, {}, quiet);
       REQUIRE_MESSAGE(solution->result().converged, solution->result().reason);

@@ -51,17 +51,17 @@ std::shared_ptr<scene::Scene> setting(int dimension, mesh::Family family, const 
   given[dimension - 1] = constant(0.01);
   scene::displace(right, given, "press");
   test::springs(upper, "right", {3, 4, 5});
-  scene::support(side, {&problem::laws::breaking, 10, 2}, {&problem::laws::friction, 0.2});
+  scene::support(side, problem::LawChoice{&problem::laws::breaking, 10, 2}, problem::LawChoice{&problem::laws::friction, 0.2});
   const auto scene = scene::make_scene({lower, upper});
   scene::Discretisation discretisation;
   discretisation.multipliers = multipliers;
   scene::add_contact(*scene, test::part(lower, "top"), test::part(upper, "bottom"), constant(0.01),
-                     {scene::Friction::Kind::tresca, constant(0.4)}, false, discretisation);
+                     {problem::laws::friction, constant(0.4)}, false, discretisation);
   scene::add_contact(*scene, test::part(lower, "right"), contact::RigidPlane{{1.5, 0, 0}, {-1, 0, 0}}, constant(-0.02), false);
   Point beside{4, 0.5, 0.5};  // so that rows have the line to its centre: else their frames are those of the part before it was bent
   beside[dimension - 1] = 2.6;
   scene::add_contact(*scene, test::part(upper, "top"), contact::RigidBall{beside, 0.3}, {}, false,
-                     {scene::Friction::Kind::coulomb, constant(0.3)});
+                     {problem::laws::coulomb, constant(0.3)});
   return scene;
 }
 
@@ -93,7 +93,7 @@ void check_same(const scene::Scene& a, const scene::Scene& b) {
   for (std::size_t c = 0; c < a.contacts.size(); ++c) {
     const scene::Contact &one = *a.contacts[c], &other = *b.contacts[c];
     REQUIRE(one.rows.size() == other.rows.size());
-    CHECK(one.friction_value == other.friction_value);
+    CHECK(one.tangential == other.tangential);
     for (std::size_t k = 0; k < one.rows.size(); ++k) {
       CHECK(one.rows[k].node == other.rows[k].node);
       CHECK(one.rows[k].partners == other.rows[k].partners);
@@ -245,7 +245,7 @@ TEST_CASE("bodies at rest are shared, and so are contacts between them") {
   CHECK(lifted->bodies[1] != scene->bodies[1]);
   CHECK(lifted->contacts[1] == scene->contacts[1]);
   for (const auto& row : lifted->contacts[0]->rows) CHECK(row.gap == doctest::Approx(0.1 + 0.01).epsilon(1e-14));
-  CHECK(lifted->contacts[0]->friction_value == scene->contacts[0]->friction_value);
+  CHECK(lifted->contacts[0]->tangential == scene->contacts[0]->tangential);
 }
 
 TEST_CASE("handles of the original work with solutions of its designs, and the other way round") {
@@ -256,7 +256,7 @@ TEST_CASE("handles of the original work with solutions of its designs, and the o
       test::symmetric(upper);
       test::press(upper, "top", 0.7);
       auto side = test::part(lower, "right");
-      scene::support(side, {&problem::laws::elastic, 10}, {});
+      scene::support(side, problem::LawChoice{&problem::laws::elastic, 10}, {});
       const auto scene = scene::make_scene({lower, upper});
       scene::add_contact(*scene, test::part(lower, "top"), test::part(upper, "bottom"), {});
       return scene;

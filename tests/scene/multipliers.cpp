@@ -15,7 +15,7 @@ using test::given;
 
 namespace {
 
-scene::Friction given(elasticity::ScalarField g) { return {scene::Friction::Kind::tresca, std::move(g)}; }
+scene::GivenLaw given(elasticity::ScalarField g) { return {problem::laws::friction, std::move(g)}; }
 
 std::shared_ptr<scene::Solution> solved(const std::shared_ptr<scene::Scene>& s) {
   Monitor quiet;
@@ -65,7 +65,7 @@ Pair pair(int dim, mesh::Family family, int n, const Matrix& Q) {
   return p;
 }
 
-void join(Pair& p, const scene::Friction& friction, const scene::Discretisation& d) {
+void join(Pair& p, const scene::GivenLaw& friction, const scene::Discretisation& d) {
   p.contact = scene::add_contact(*p.scene, test::part(p.high, "bottom"), test::part(p.low, "top"), {}, friction, false, d);
 }
 
@@ -318,7 +318,7 @@ TEST_CASE("where supports hold both sides of the contact, multipliers stay uniqu
 TEST_CASE("no slip at all, and no friction, with the report's multipliers") {
   const double infinite = std::numeric_limits<double>::infinity();
   for (int dim : {2, 3}) {
-    const auto energy = [&](const scene::Friction& friction) {
+    const auto energy = [&](const scene::GivenLaw& friction) {
       Pair p = pair(dim, mesh::Family::p1, 4, Matrix::Identity());
       test::fix(p.low, "bottom");
       test::fix(p.high, "left");
@@ -334,7 +334,7 @@ TEST_CASE("no slip at all, and no friction, with the report's multipliers") {
     CHECK(energy(given(0)) == doctest::Approx(energy({})).epsilon(1e-14));
     CHECK_THROWS_WITH_AS(energy(given([&](const Point& x) { return x[0] < 0.5 ? infinite : 1; })),
                          doctest::Contains("infinite on a part"), InputError);
-    CHECK_THROWS_WITH_AS(energy({scene::Friction::Kind::coulomb, [](const Point&) { return 0.3; }}),
+    CHECK_THROWS_WITH_AS(energy({problem::laws::coulomb, [](const Point&) { return 0.3; }}),
                          doctest::Contains("Coulomb friction does not go with multipliers"), InputError);
   }
 }

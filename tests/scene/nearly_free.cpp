@@ -75,7 +75,7 @@ TEST_CASE("weak springs beside a contact that holds take nothing of it, and a la
         if (law) test::support(b, "top", {&laws::elastic, k}, {&laws::elastic, k});
         else test::springs(b, "top", {k, k, 0});
         const auto scene = scene::make_scene({b});
-        scene::add_contact(*scene, test::part(b, "bottom"), contact::RigidPlane{{0, 0, 0}, {0, 1, 0}}, {}, false, friction ? test::coulomb(0.3) : scene::Friction{});
+        scene::add_contact(*scene, test::part(b, "bottom"), contact::RigidPlane{{0, 0, 0}, {0, 1, 0}}, {}, false, friction ? test::coulomb(0.3) : scene::GivenLaw{});
         Monitor quiet;
         const auto s = scene::solve(scene, solver::Newton{}, {}, quiet);
         CHECK_MESSAGE(s->result().converged, s->result().reason);

@@ -13,10 +13,10 @@ using test::friction;
 
 namespace {
 
-using Kind = scene::Friction::Kind;
+namespace laws = dotyk::problem::laws;
 
 /// A block on another, 2 × 1 each, pressed and pulled sideways; lengths and stresses in units of the caller's.
-std::shared_ptr<scene::Scene> blocks(const scene::Friction& law, bool held, double length = 1, double stress = 1) {
+std::shared_ptr<scene::Scene> blocks(const scene::GivenLaw& law, bool held, double length = 1, double stress = 1) {
   const auto half = [&](const char* name, double y) {
     return test::body(name, test::rectangle(test::Family::p1, 8, 4, 0, y * length, 2 * length, (y + 1) * length),
                       1000 * stress);
@@ -31,7 +31,7 @@ std::shared_ptr<scene::Scene> blocks(const scene::Friction& law, bool held, doub
 }
 
 /// A cube pressed against a paraboloid by prescribed interference.
-std::shared_ptr<scene::Scene> cube(const scene::Friction& law) {
+std::shared_ptr<scene::Scene> cube(const scene::GivenLaw& law) {
   const auto body = test::body("cube", test::box(test::Family::p1, 4, 4, 4), 1000);
   test::fix(body, "bottom");
   auto scene = scene::make_scene({body});
@@ -54,9 +54,9 @@ std::shared_ptr<scene::Solution> solve(const std::shared_ptr<scene::Scene>& s, s
 }  // namespace
 
 TEST_CASE("Newton's method converges from random starts to the solution found from rest") {
-  for (const auto& scene : {blocks(friction(Kind::tresca, 2.5), false), blocks(friction(Kind::coulomb, 0.3), false),
-                            blocks(friction(Kind::tresca, 2.5), true), blocks(friction(Kind::coulomb, 3), true),
-                            cube(friction(Kind::tresca, 10)), cube(friction(Kind::coulomb, 0.3))}) {
+  for (const auto& scene : {blocks(friction(&laws::friction, 2.5), false), blocks(friction(&laws::coulomb, 0.3), false),
+                            blocks(friction(&laws::friction, 2.5), true), blocks(friction(&laws::coulomb, 3), true),
+                            cube(friction(&laws::friction, 10)), cube(friction(&laws::coulomb, 0.3))}) {
     const auto rest = solve(scene, std::nullopt);
     REQUIRE(rest->result().converged);
     CHECK(rest->result().iterations <= 12);
@@ -71,7 +71,7 @@ TEST_CASE("Newton's method converges from random starts to the solution found fr
 TEST_CASE("the derivative is singular exactly where given friction leaves a free body a rigid motion") {
   int singular = 0, steps = 0;
   for (unsigned seed = 1; seed <= 60; ++seed) {
-    const auto s = solve(blocks(friction(Kind::tresca, 2.5), false), seed);
+    const auto s = solve(blocks(friction(&laws::friction, 2.5), false), seed);
     const auto& history = s->result().history;
     for (std::size_t k = 1; k < history.size(); ++k) {
       // The derivative is that of the iterate before. All rows lie on one line: two closed ones hold the height
@@ -87,14 +87,14 @@ TEST_CASE("the derivative is singular exactly where given friction leaves a free
 }
 
 TEST_CASE("the singular value has no unit") {
-  for (const Kind kind : {Kind::tresca, Kind::coulomb})
+  for (const problem::LawSpec* kind : {&laws::friction, &laws::coulomb})
     for (unsigned seed = 1; seed <= 10; ++seed)
       for (const bool held : {false, true}) {
-        const double g = kind == Kind::tresca ? 2.5 : 0.3;
+        const double g = kind == &laws::friction ? 2.5 : 0.3;
         const auto one = solve(blocks(friction(kind, g), held), seed);
         const double length = 1e3, stress = 1e-5;
         const auto other =
-            solve(blocks(friction(kind, kind == Kind::tresca ? g * stress : g), held, length, stress), seed);
+            solve(blocks(friction(kind, kind == &laws::friction ? g * stress : g), held, length, stress), seed);
         REQUIRE(one->result().history.size() == other->result().history.size());
         for (std::size_t k = 0; k < one->result().history.size(); ++k)
           CHECK(std::abs(one->result().history[k].singular_value - other->result().history[k].singular_value) <
@@ -104,7 +104,7 @@ TEST_CASE("the singular value has no unit") {
 
 TEST_CASE("unwatched, the singular value is estimated to within the root of the number of rows") {
   for (unsigned seed = 1; seed <= 20; ++seed) {
-    const auto scene = blocks(friction(Kind::coulomb, 0.3), true);
+    const auto scene = blocks(friction(&laws::coulomb, 0.3), true);
     const auto exact = solve(scene, seed), estimated = solve(scene, seed, false);
     const double root = std::sqrt(exact->rows());
     REQUIRE(exact->result().history.size() == estimated->result().history.size());

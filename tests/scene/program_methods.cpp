@@ -219,7 +219,7 @@ TEST_CASE("these methods refuse friction, naming one that can, and loads that no
   const auto rubbed = test::block("block", 2, mesh::Family::p1, 2);
   auto rubs = scene::make_scene({rubbed});
   scene::add_contact(*rubs, test::part(rubbed, "bottom"), contact::RigidPlane{{0, 0, 0}, {0, 1, 0}}, {}, false,
-                     {scene::Friction::Kind::coulomb, [](const Point&) { return 0.3; }});
+                     {problem::laws::coulomb, [](const Point&) { return 0.3; }});
   for (const solver::Method& method : {solver::Method(solver::ActiveSet{}), solver::Method(solver::InteriorPoint{}),
                                        solver::Method(solver::Penalty{})}) {
     CHECK_THROWS_WITH_AS(solve(lifted, method), doctest::Contains("nothing stops 'block': translation along"), InputError);

@@ -20,7 +20,7 @@ struct Rubbed {
   std::vector<scene::Step> steps;
 };
 
-Rubbed rubbed(int dim, scene::Friction::Kind kind, double value,
+Rubbed rubbed(int dim, const problem::LawSpec* kind, double value,
               contact::Multipliers multipliers = contact::Multipliers::nodal) {
   const auto lower = test::block("lower", dim, mesh::Family::p1, 4), upper = test::block("upper", dim, mesh::Family::p1, 4, 1, 400);
   test::fix(lower, "bottom");
@@ -35,7 +35,7 @@ Rubbed rubbed(int dim, scene::Friction::Kind kind, double value,
   Rubbed r;
   r.scene = scene::make_scene({lower, upper});
   r.contact = scene::add_contact(*r.scene, test::part(upper, "bottom"), test::part(lower, "top"), {},
-                                 {kind, [=](const Point& x) { return value * (1 + x[0]); }}, false, {multipliers, 0});
+                                 {*kind, [=](const Point& x) { return value * (1 + x[0]); }}, false, {multipliers, 0});
   const double path[][3] = {{1, 0, 0}, {1, .7, 0}, {1, .7, 1}, {.8, -.5, 1}, {1.2, -.7, -1}, {1, .6, .3}, {1, .6, .3}, {.7, 0, 0}};
   for (const auto& p : path) {
     scene::Step step;
@@ -70,9 +70,9 @@ TEST_CASE("the energy balance of every step of a history") {
   // work, taken at the step's end, than is stored and dissipated.
   for (int dim : {2, 3})
     for (const auto& [kind, value, multipliers] :
-         {std::tuple{scene::Friction::Kind::tresca, 0.3, contact::Multipliers::nodal},
-          {scene::Friction::Kind::tresca, 0.3, contact::Multipliers::p1_p0},
-          {scene::Friction::Kind::coulomb, 0.35, contact::Multipliers::nodal}}) {
+         {std::tuple{&problem::laws::friction, 0.3, contact::Multipliers::nodal},
+          {&problem::laws::friction, 0.3, contact::Multipliers::p1_p0},
+          {&problem::laws::coulomb, 0.35, contact::Multipliers::nodal}}) {
       const Rubbed r = rubbed(dim, kind, value, multipliers);
       Monitor quiet;
       const auto last = scene::solve(r.scene, {}, {}, quiet, r.steps);
@@ -126,7 +126,7 @@ TEST_CASE("the energy balance of every step of a history") {
 }
 
 TEST_CASE("the steps of a history share one factorisation, and each is what a solve of its own gives") {
-  const Rubbed r = rubbed(2, scene::Friction::Kind::coulomb, 0.35);
+  const Rubbed r = rubbed(2, &problem::laws::coulomb, 0.35);
   Monitor quiet;
   const auto last = scene::solve(r.scene, {}, {}, quiet, r.steps);
   std::shared_ptr<const scene::Solution> alone;

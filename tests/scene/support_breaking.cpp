@@ -38,7 +38,7 @@ std::vector<std::shared_ptr<scene::Solution>> local_minima(double load) {
   for (int choice = 0; choice < 32; ++choice) {
     const auto body = loaded(load);
     auto& law = body->laws.front();
-    law.normal.numbers[1] = 1e9;  // what is whole does not break
+    law.normal.law.numbers[1] = 1e9;  // what is whole does not break
     for (int k = 0; k < 5; ++k) law.broken.push_back(choice >> k & 1);
     const auto s = test::solve(scene::make_scene({body}));
     if (s->result().converged && consistent(*s)) minima.push_back(s);

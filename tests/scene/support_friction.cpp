@@ -117,7 +117,7 @@ TEST_CASE("friction on a rigid base is given friction of contact with a rigid ha
     Point up{0, 0, 0};
     up[dimension - 1] = 1;
     const auto contact = scene::add_contact(*with_contact, test::part(met, "bottom"), contact::RigidPlane{{0, 0, 0}, up}, {}, false,
-                                            {scene::Friction::Kind::tresca, [=](const Point&) { return g; }});
+                                            {problem::laws::friction, [=](const Point&) { return g; }});
     const auto a = solve(law), b = test::solve_by(with_contact, solver::Newton{});
     CHECK(test::distance(*a, *b) < 1e-9);
     CHECK(a->friction_energy() == doctest::Approx(b->friction_energy()).epsilon(1e-9));
@@ -203,7 +203,7 @@ TEST_CASE("in a history friction of a support remembers, as that of contact does
   }
   auto with_contact = scene::make_scene({met});
   scene::add_contact(*with_contact, test::part(met, "bottom"), contact::RigidPlane{{0, 0, 0}, {0, 1, 0}}, {}, false,
-                     {scene::Friction::Kind::tresca, [=](const Point&) { return g; }});
+                     {problem::laws::friction, [=](const Point&) { return g; }});
   Monitor quiet;
   const auto a = scene::solve(scene::make_scene({law}), {}, {}, quiet, steps), b = scene::solve(with_contact, {}, {}, quiet, steps);
   REQUIRE(a->result().converged);

@@ -60,7 +60,7 @@ inline SolutionPtr solved(const ScenePtr& scene, const std::shared_ptr<problem::
   Monitor quiet;
   solver::Newton newton;
   newton.tol = 1e-14;  // differences blow up what is left
-  const bool friction = std::any_of(scene->contacts.begin(), scene->contacts.end(), [](const auto& c) { return c->friction != scene::Friction::Kind::none; });
+  const bool friction = std::any_of(scene->contacts.begin(), scene->contacts.end(), [](const auto& c) { return c->tangential->rubs(); });
   const SolutionPtr s = scene::solve(scene, friction ? solver::Method(newton) : solver::Method(solver::Pdas{}), {.coarse = nullptr, .closed = std::nullopt, .after = nullptr, .condenser = condenser}, quiet);
   REQUIRE_MESSAGE(s->result().converged, s->result().reason);
   return s;

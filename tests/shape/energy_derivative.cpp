@@ -12,7 +12,7 @@ using mesh::Point;
 
 namespace {
 
-test::ScenePtr blocks(int dimension, const scene::Friction& friction) {
+test::ScenePtr blocks(int dimension, const scene::GivenLaw& friction) {
   const auto lower = test::block("lower", dimension, Family::q1, 4, 0, 1000), upper = test::block("upper", dimension, Family::q1, 4, 1, 600);
   test::fix(lower, "bottom");
   test::springs(upper, "right", {30, dimension == 3 ? 25.0 : 0.0, 0});
@@ -36,15 +36,15 @@ double least_error(const scene::Scene& scene, const test::Velocities& V, double 
   return best;
 }
 
-scene::Friction given() {
-  return {scene::Friction::Kind::tresca, [](const Point& x) { return 0.3 + 0.5 * x[0]; }};
+scene::GivenLaw given() {
+  return {problem::laws::friction, [](const Point& x) { return 0.3 + 0.5 * x[0]; }};
 }
 
 }  // namespace
 
 TEST_CASE("the energy's derivative, with springs, given displacements and given friction") {
   for (const int dimension : {2, 3})
-    for (const auto& friction : {scene::Friction{}, given()}) {
+    for (const auto& friction : {scene::GivenLaw{}, given()}) {
       const auto scene = blocks(dimension, friction);
       const auto V = test::velocities(*scene, [=, waves = test::waves(0.02)](int b, const Point& x) {
         Point v = waves(b, x);
@@ -59,7 +59,7 @@ TEST_CASE("the energy's derivative, with springs, given displacements and given 
 
 TEST_CASE("Coulomb friction has no least energy; what rests changes none") {
   const auto scene = blocks(2, {});
-  CHECK_THROWS_WITH_AS(shape::energy_derivative(*test::solved(blocks(2, {scene::Friction::Kind::coulomb, [](const Point&) { return 0.3; }})),
+  CHECK_THROWS_WITH_AS(shape::energy_derivative(*test::solved(blocks(2, {problem::laws::coulomb, [](const Point&) { return 0.3; }})),
                                                 test::velocities(*scene, test::waves(0.02))),
                        doctest::Contains("has Coulomb friction"), InputError);
   CHECK(shape::energy_derivative(*test::solved(scene), {{}, {}}) == 0);

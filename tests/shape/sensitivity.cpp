@@ -109,7 +109,7 @@ TEST_CASE("springs that move, one-sided supports and given displacements that re
   test::springs(body, "left", {300, 20, 0});
   test::press(body, "top", 3);
   auto right = test::part(body, "right");
-  scene::support(right, {&problem::laws::one_sided_elastic, 500}, {});
+  scene::support(right, problem::LawChoice{&problem::laws::one_sided_elastic, 500}, {});
   const auto scene = scene::make_scene({body});
   scene::add_contact(*scene, test::part(body, "bottom"), contact::RigidPlane{{0, -0.001, 0}, {0, 1, 0}}, {}, true);
   const auto support = test::solved(scene)->support(right);
@@ -186,7 +186,7 @@ TEST_CASE("what has no derivative is refused with the reason") {
     test::press(upper, "top", 2);
     const auto scene = scene::make_scene({lower, upper});
     scene::add_contact(*scene, test::part(upper, "bottom"), test::part(lower, "top"), {},
-                       {scene::Friction::Kind::tresca, [](const Point&) { return 0.5; }}, false, {multipliers});
+                       {problem::laws::friction, [](const Point&) { return 0.5; }}, false, {multipliers});
     return scene;
   };
   const auto scene = make(contact::Multipliers::p1_p0);

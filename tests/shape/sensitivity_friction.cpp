@@ -9,12 +9,12 @@ using mesh::Point;
 
 namespace {
 
-scene::Friction given(elasticity::ScalarField g) { return {scene::Friction::Kind::tresca, std::move(g)}; }
+scene::GivenLaw given(elasticity::ScalarField g) { return {problem::laws::friction, std::move(g)}; }
 
 using BodyPtr = std::shared_ptr<scene::Body>;
 
 /// A body on another, pressed and pulled sideways.
-test::ScenePtr pressed(const BodyPtr& lower, const BodyPtr& upper, const scene::Friction& friction) {
+test::ScenePtr pressed(const BodyPtr& lower, const BodyPtr& upper, const scene::GivenLaw& friction) {
   const int dimension = lower->dimension();
   test::fix(lower, "bottom");
   test::springs(upper, "right", {30, dimension == 3 ? 25.0 : 0.0, 0});
@@ -28,7 +28,7 @@ test::ScenePtr pressed(const BodyPtr& lower, const BodyPtr& upper, const scene::
   return scene;
 }
 
-test::ScenePtr blocks(int dimension, Family family, int n, const scene::Friction& friction) {
+test::ScenePtr blocks(int dimension, Family family, int n, const scene::GivenLaw& friction) {
   return pressed(test::block("lower", dimension, family, n, 0, 1000), test::block("upper", dimension, family, n, 1, 600), friction);
 }
 

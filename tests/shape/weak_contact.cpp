@@ -10,7 +10,7 @@ using mesh::Point;
 namespace {
 
 /// A pressed block over a rigid floor with this gap at the bottom's nodes, by x.
-test::ScenePtr block(Family family, const elasticity::ScalarField& gap, bool free, const scene::Friction& friction) {
+test::ScenePtr block(Family family, const elasticity::ScalarField& gap, bool free, const scene::GivenLaw& friction) {
   const auto body = test::block("block", 2, family, 8, 0, 1000);
   if (free) {
     test::fix(body, "left", {true, false, false});
@@ -29,7 +29,7 @@ double bowl(const Point& x) { return 0.08 * (x[0] - 0.5) * (x[0] - 0.5); }
 
 /// The block over a bowl, whose first `count` open nodes (by distance from the middle) have exactly the gap that they
 /// close: where contact does not notice them, they touch without force.
-test::ScenePtr touching(Family family, int count, bool free = false, const scene::Friction& friction = {}) {
+test::ScenePtr touching(Family family, int count, bool free = false, const scene::GivenLaw& friction = {}) {
   const auto open = test::solved(block(family, bowl, free, friction));
   auto nodes = open->contact(*open->scene().contacts.front()).nodes;
   std::erase_if(nodes, [](const scene::ContactNode& n) { return n.gap < 1e-9; });
@@ -81,13 +81,13 @@ TEST_CASE("two nodes in weak contact, and a body that contact alone holds down")
 }
 
 TEST_CASE("weak contact with given friction that sticks and slips elsewhere; with Coulomb's it is refused") {
-  const scene::Friction given{scene::Friction::Kind::tresca, [](const Point& x) { return 0.2 + 2 * x[0]; }};
+  const scene::GivenLaw given{problem::laws::friction, [](const Point& x) { return 0.2 + 2 * x[0]; }};
   const auto scene = touching(Family::q1, 1, false, given);
   const auto c = test::solved(scene)->contact(*scene->contacts.front());
   CHECK(c.stick > 0);
   CHECK(c.slip > 0);
   check_sides(scene, tilted(), 1);
-  const scene::Friction coulomb{scene::Friction::Kind::coulomb, [](const Point&) { return 0.2; }};
+  const scene::GivenLaw coulomb{problem::laws::coulomb, [](const Point&) { return 0.2; }};
   CHECK_THROWS_WITH_AS(test::sensitivity(test::solved(touching(Family::q1, 1, false, coulomb))),
                        doctest::Contains("touches without force, where its friction begins"), InputError);
 }
@@ -107,7 +107,7 @@ test::ScenePtr before_springs(double level) {
   test::fix(body, "bottom");
   test::pull(body, "left", [=](const Point& x) { return Point{level - 20 * x[1] * x[1], 2, 0}; });
   auto right = test::part(body, "right");
-  scene::support(right, {&problem::laws::one_sided_elastic, 500}, {});
+  scene::support(right, problem::LawChoice{&problem::laws::one_sided_elastic, 500}, {});
   return scene::make_scene({body});
 }
 

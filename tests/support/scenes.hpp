@@ -21,11 +21,11 @@ inline std::shared_ptr<scene::Body> block(const std::string& name, int dimension
   return body(name, std::move(m), E, nu);
 }
 
-inline scene::Friction friction(scene::Friction::Kind kind, double value) {
-  return {kind, [=](const Point&) { return value; }};
+inline scene::GivenLaw friction(const problem::LawSpec* kind, double value) {
+  return problem::LawChoice{kind, {value}};
 }
-inline scene::Friction coulomb(double mu) { return friction(scene::Friction::Kind::coulomb, mu); }
-inline scene::Friction given(double g) { return friction(scene::Friction::Kind::tresca, g); }
+inline scene::GivenLaw coulomb(double mu) { return friction(&problem::laws::coulomb, mu); }
+inline scene::GivenLaw given(double g) { return friction(&problem::laws::friction, g); }
 
 inline constexpr double kPressure = 3;  ///< of patch tests
 

@@ -25,7 +25,7 @@ inline Stack stack(int dim, Family one, Family other, int n, int m, double E = 7
 }
 
 /// Contact of the upper block's bottom with the lower's top, or the other way round.
-inline void touch(Stack& s, bool upper_first = true, const scene::Friction& friction = {}, std::optional<contact::Pairing> pairing = {}) {
+inline void touch(Stack& s, bool upper_first = true, const scene::GivenLaw& friction = {}, std::optional<contact::Pairing> pairing = {}) {
   const auto below = part(s.low, "top"), above = part(s.high, "bottom");
   s.contact = scene::add_contact(*s.scene, upper_first ? above : below, upper_first ? below : above, {}, friction, false, {}, pairing);
 }

@@ -112,7 +112,7 @@ void add_law_supports(const Solution& s, int index, int& along, ScenePicture& pi
   for (const scene::LawSupport& on : body.laws) {
     const Outline outline(*body.mesh, on.facets, along);
     const auto result = s.support({s.scene().bodies[index], on.part.name, on.facets});
-    const problem::LawChoice& law = on.normal->acts() ? on.normal : on.tangential;
+    const problem::LawAlong& law = on.normal->acts() ? on.normal : on.tangential;
     if (law->load) continue;
     for (const scene::SupportNode& node : result.nodes)
       if (!node.broken)

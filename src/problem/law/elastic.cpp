@@ -113,21 +113,23 @@ constexpr LawNumber bound(const char* before = "") {
 }
 
 /// Rows whose force lies between −bound or 0 and the bound: springs, or rigid where the law is.
-std::shared_ptr<const Law> cut_off_rows(const LawChoice& law, double unit, const std::vector<double>& shares) {
-  const double k = law->rigid ? Law::kUnbounded : law.stiffness() / (unit * unit), most = law->breaks ? Law::kUnbounded : law.bound() / unit;
+std::shared_ptr<const Law> cut_off_rows(std::span<const LawRow> rows, double unit) {
   const auto part = [](double number, double share) { return std::isfinite(number) ? number * share : number; };
-  std::vector<Limits> rows;
-  for (const double share : shares) rows.push_back({part(k, share), law->pulls ? -part(most, share) : 0, part(most, share)});
-  return limited(law.spec->words, std::move(rows));
+  std::vector<Limits> limits;
+  for (const auto& [law, share] : rows) {
+    const double k = law->rigid ? Law::kUnbounded : law.stiffness() / (unit * unit), most = law->breaks ? Law::kUnbounded : law.bound() / unit;
+    limits.push_back({part(k, share), law->pulls ? -part(most, share) : 0, part(most, share)});
+  }
+  return limited(rows.front().law.spec->words, std::move(limits));
 }
 
 }  // namespace
 
 const LawSpec laws::elastic{
     .name = "elastic", .words = "elastic", .help = "A spring: the reaction is -k v.", .traits = {.pushes = true, .pulls = true}, .numbers = {{stiffness()}},
-    .rows = [](const LawChoice& law, double unit, const std::vector<double>& shares) {
+    .rows = [](std::span<const LawRow> rows, double unit) {
       std::vector<double> stiffness;
-      for (const double share : shares) stiffness.push_back(law.stiffness() / (unit * unit) * share);
+      for (const auto& [law, share] : rows) stiffness.push_back(law.stiffness() / (unit * unit) * share);
       return problem::elastic(std::move(stiffness));
     }};
 
@@ -155,9 +157,9 @@ const LawSpec laws::unequal_elastic{
     .traits = {.pushes = true, .pulls = true, .uneven = true},
     .numbers = {{{.name = "k_push", .role = Role::stiffness, .help = "stiffness where it pushes, not negative", .unit = stiffness().unit, .example = "100", .after = " pushed"},
                  {.name = "k_pull", .role = Role::pull, .help = "stiffness where it pulls, not negative", .unit = stiffness().unit, .example = "20", .after = " pulled"}}},
-    .rows = [](const LawChoice& law, double unit, const std::vector<double>& shares) {
+    .rows = [](std::span<const LawRow> rows, double unit) {
       std::vector<Springs> springs;
-      for (const double share : shares) springs.push_back({law.numbers[1] / (unit * unit) * share, law.numbers[0] / (unit * unit) * share});
+      for (const auto& [law, share] : rows) springs.push_back({law.numbers[1] / (unit * unit) * share, law.numbers[0] / (unit * unit) * share});
       return problem::unequal_elastic(std::move(springs));
     }};
 

@@ -40,7 +40,7 @@ const LawSpec laws::prescribed{
     .name = "prescribed", .words = "prescribed", .help = "Prescribes the displacement.",
     .traits = {.prescribes = true, .rigid = true, .pushes = true, .pulls = true},
     .numbers = {{{.name = "v", .role = LawNumber::Role::displacement, .help = "the deflection, rotation or displacement", .unit = "length, or rad", .example = "-1", .least = -Law::kUnbounded, .usual = 0}}},
-    .rows = [](const LawChoice&, double, const std::vector<double>&) { return bilateral(); }};
+    .rows = [](std::span<const LawRow>, double) { return bilateral(); }};
 
 const LawSpec laws::load{
     .name = "load", .words = "load", .help = "A load: a force, a moment on the rotation, or a pressure on a part.",
@@ -50,6 +50,6 @@ const LawSpec laws::load{
 const LawSpec laws::signorini{
     .name = "signorini", .words = "Signorini", .help = "A rigid stop: the deflection stays at or above zero, a slope at or below zero, a part does not enter the support.",
     .traits = {.rigid = true, .pushes = true},
-    .rows = [](const LawChoice&, double, const std::vector<double>&) { return unilateral(); }};
+    .rows = [](std::span<const LawRow>, double) { return unilateral(); }};
 
 }  // namespace dotyk::problem

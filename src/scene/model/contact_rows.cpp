@@ -12,6 +12,7 @@ namespace dotyk::scene {
 
 using contact::tangents;
 using mesh::Point;
+using problem::LawChoice;
 
 namespace {
 
@@ -28,7 +29,7 @@ class ContactRowMaker {
 
   void operator()() {
     normal();
-    if (contact_.friction == Friction::Kind::none && !contact_.tangential->acts()) return;
+    if (!contact_.tangential->acts()) return;
     const std::vector<Candidate> points = nodal(contact_) ? nodal_points() : cell_points();
     for (int components = 1; components < dim_; ++components)
       for (const bool slips : {true, false}) add(points, components, slips);
@@ -36,13 +37,13 @@ class ContactRowMaker {
 
  private:
   void normal() {
-    const bool law = problem::row_law(contact_.normal) != nullptr;
-    if (law) builder_.rows.open_group(contact_.name, contact_.normal);
+    const bool law = contact_.normal.law.spec->rows;
+    if (law) builder_.rows.open_group(contact_.name, contact_.normal.law);
     std::vector<char> moves, held;
     for (std::size_t k = 0; k < contact_.rows.size(); ++k) {
       moves.push_back(this->moves(k, contact_.rows[k].normal));
       held.push_back(!moves.back());
-      if (held.back()) require_apart(contact_.rows[k]);
+      if (held.back()) require_apart(k);
     }
     if (!contact_.discretisation.share_fixed) moves.assign(moves.size(), 1);
     model_.normal.back() = nodal(contact_) || dim_ == 2
@@ -54,11 +55,11 @@ class ContactRowMaker {
       double gap = 0;
       for (const contact::Term& jump : row.jumps) {
         pulls.push_back(pull(jump, contact_.rows[jump.row].normal));
-        gap += jump.weight * contact_.rows[jump.row].gap;
+        gap += jump.weight * (contact_.rows[jump.row].gap - contact_.normal[jump.row].displacement());
       }
-      gap -= contact_.normal.displacement();
       const bool none = pulls.empty() || (held[k] && nodal(contact_)) || !law;
-      const int r = none ? -1 : builder_.add(first_, second_, pulls, gap, row.measure);
+      const LawChoice own = contact_.normal[k];
+      const int r = none ? -1 : builder_.add(first_, second_, pulls, gap, row.measure, &own);
       model_.contact_row.back().push_back(r);
       std::vector<double>& measure = model_.problem.measure;
       if (r >= 0) measure.resize(static_cast<std::size_t>(r) + 1, 0), measure.back() = row.measure;
@@ -82,16 +83,18 @@ class ContactRowMaker {
     return (free_[row] * Eigen::Map<const Eigen::Vector3d>(direction.data())).norm() > kHeld;
   }
 
-  void require_apart(const contact::ContactRow& row) {
+  void require_apart(std::size_t k) {
+    const contact::ContactRow& row = contact_.rows[k];
+    const double prescribed = contact_.normal[k].displacement();
     if (!contact_.normal->stop() && !contact_.normal->prescribes) return;
     const std::optional<double> jump = jumps_.given(row);
     if (!jump) return;  // a partner further away moves
     const double gap = row.gap + mesh::dot(row.normal, model_.move.back()) - *jump;
     // Rounding of coordinates may leave a fixed node this far inside.
     const double rounding = 1e-9 * contact_.first.body->mesh->size();
-    if (contact_.normal->prescribes && std::abs(gap - contact_.normal.displacement()) > rounding)
+    if (contact_.normal->prescribes && std::abs(gap - prescribed) > rounding)
       throw InputError(text(contact_.name, ": the node at ", point_text(contact_.first.body->mesh->node(row.node), dim_),
-                            " is fixed in the normal direction, ", gap, " off the other side; no displacement can make that the prescribed ", contact_.normal.displacement()));
+                            " is fixed in the normal direction, ", gap, " off the other side; no displacement can make that the prescribed ", prescribed));
     if (contact_.normal->stop() && gap < -rounding)
       throw InputError(text(contact_.name, ": the node at ",
                             point_text(contact_.first.body->mesh->node(row.node), dim_),
@@ -109,7 +112,7 @@ class ContactRowMaker {
 
   std::vector<Candidate> nodal_points() const {
     std::vector<Candidate> points;
-    const bool given = contact_.friction == Friction::Kind::tresca, springs = contact_.friction == Friction::Kind::none;
+    const bool given = contact_.tangential->tresca(), springs = !contact_.tangential->rubs();
     std::vector<char> aside = contact::at_corners(contact_.rows);
     if (!given) aside.assign(aside.size(), 0);  // the bound goes with the node's own pressure: a neighbour's may be none
     const std::vector<std::vector<contact::Term>> nodes = surroundings(aside);
@@ -119,7 +122,7 @@ class ContactRowMaker {
       double bound = 0, measure = 0;
       for (const contact::Term& node : nodes[k]) {
         const double weight = node.weight * contact_.rows[node.row].weight;
-        bound += springs ? contact_.tangential.stiffness() * weight : contact_.friction_value[node.row] * (given ? weight : 1);
+        bound += contact_.tangential[node.row].numbers[0] * (given || springs ? weight : 1);
         measure += weight;
       }
       const int n = model_.contact_row.back()[k];
@@ -144,7 +147,8 @@ class ContactRowMaker {
   }
 
   std::vector<Candidate> cell_points() const {
-    std::vector<double> g = contact_.friction_value;
+    std::vector<double> g;
+    for (std::size_t k = 0; k < contact_.rows.size(); ++k) g.push_back(contact_.tangential[k].numbers[0]);
     const bool slips = std::none_of(g.begin(), g.end(), [](double v) { return std::isinf(v); });
     if (!slips) g.assign(g.size(), 1);
     std::vector<char> moving;
@@ -200,20 +204,21 @@ class ContactRowMaker {
         for (const contact::Term& jump : point.cell.jumps)
           pulls.push_back(pull(jump, rows.at(i, contact_.rows[jump.row], dim_)));
         double jump = 0;
-        rows.row[i] = builder_.add(first_, second_, pulls, jump, point.cell.measure);
+        const LawChoice own = contact_.tangential[point.cell.jumps.front().row];
+        rows.row[i] = builder_.add(first_, second_, pulls, jump, point.cell.measure, &own);
       }
       model_.friction.back().push_back(std::move(rows));
       normal.push_back(point.normal);
       bounds.push_back(point.cell.bound);
     }
     if (!slips || normal.empty()) return;
-    auto law = contact_.friction == Friction::Kind::tresca ? problem::tresca(std::move(bounds))
+    auto law = contact_.tangential->tresca() ? problem::tresca(std::move(bounds))
                                                            : problem::coulomb(std::move(bounds));
     model_.problem.friction.push_back({contact_.name, std::move(law), first_row, components, std::move(normal)});
   }
 
   int open_group() {
-    if (contact_.friction == Friction::Kind::none) builder_.rows.open_group(contact_.name + " (tangential)", contact_.tangential);
+    if (!contact_.tangential->rubs()) builder_.rows.open_group(contact_.name + " (tangential)", contact_.tangential.law);
     else builder_.rows.open_group(contact_.name + " (no slip)", problem::bilateral());
     return 0;
   }

@@ -69,11 +69,12 @@ FreeJumps::Side FreeJumps::side_of(const Body& body, const elasticity::Numbering
     Side result{&numbering, {}};
   for (const SlideRow& slide : body.slides) result.conditions[slide.node].push_back({slide.normal, 0});
   for (const LawSupport& law : body.laws)
-    for (const contact::NodeSide& side : law.nodes) {
+    for (std::size_t k = 0; k < law.nodes.size(); ++k) {
+      const contact::NodeSide& side = law.nodes[k];
       if (side.own.size() > 1) continue;
-      if (law.normal->prescribes) result.conditions[side.node].push_back({side.normal, -law.normal.displacement()});
+      if (law.normal->prescribes) result.conditions[side.node].push_back({side.normal, -law.normal[k].displacement()});
       if (law.tangential->prescribes)
-        for (const Point& t : contact::tangents(side.normal, body.dimension())) result.conditions[side.node].push_back({t, law.tangential.displacement()});
+        for (const Point& t : contact::tangents(side.normal, body.dimension())) result.conditions[side.node].push_back({t, law.tangential[k].displacement()});
     }
   return result;
 }

@@ -193,7 +193,7 @@ void set_rows(const Scene& scene, const Loading& loading, Model& model) {
   RowBuilder builder(scene, model);
   for (const auto& given : scene.contacts) {
     const FreeJumps jumps(scene, model.bodies, model.numbering, *given);
-    const auto contact = model.contacts.emplace_back(with_held_normals(given, jumps));
+    const auto contact = model.contacts.emplace_back(loading.applied_to(with_held_normals(given, jumps)));
     model.move.push_back(loading.move_of(static_cast<int>(model.move.size())));
     builder.set_move(model.move.back());
     model.contact_row.emplace_back();

@@ -21,10 +21,10 @@ class SupportRowMaker {
         rows_(support.nodes.size()) {}
 
   std::vector<SupportRows> operator()() {
-    if (problem::row_law(support_.normal)) normal();
+    if (support_.normal.law.spec->rows) normal();
     if (support_.tangential->rubs())
       friction();
-    else if (problem::row_law(support_.tangential))
+    else if (support_.tangential.law.spec->rows)
       tangential();
     return std::move(rows_);
   }
@@ -35,44 +35,64 @@ class SupportRowMaker {
   }
 
   void normal() {
-    const LawChoice& law = support_.normal;
-    builder_.rows.open_group(name("normal"), law);
+    builder_.rows.open_group(name("normal"), support_.normal.law);
     for (std::size_t k = 0; k < rows_.size(); ++k) {
       const contact::NodeSide& side = support_.nodes[k];
+      const LawChoice law = support_.normal[k];
       rows_[k].normal = add(side, side.normal, law, -law.displacement(), support_.breaks(k) ? 0 : side.weight);
     }
   }
 
   void tangential() {
-    const LawChoice& law = support_.tangential;
-    builder_.rows.open_group(name("tangential"), law);
+    builder_.rows.open_group(name("tangential"), support_.tangential.law);
     for (std::size_t k = 0; k < rows_.size(); ++k)
       for (const Point& t : contact::tangents(support_.nodes[k].normal, on_.dimension())) {
+        const LawChoice law = support_.tangential[k];
         const int row = add(support_.nodes[k], t, law, law.displacement(), support_.nodes[k].weight);
         if (row >= 0) rows_[k].add(row, t);
       }
   }
 
-  /// Points with one free tangent and points with two make two groups, because all points of a group have the same number of rows.
+  /// Points with one free tangent and points with two make two groups, because all points of a group have the same number of rows. Points of an
+  /// infinite bound do not slip.
   void friction() {
-    const bool coulomb = support_.tangential->follows;
+    const bool coulomb = support_.tangential->follows && !support_.normal->load;
     for (int components = 1; components < on_.dimension(); ++components) {
       const int first = builder_.rows.open_friction();
       std::vector<double> bounds;
       std::vector<int> normal;
-      for (std::size_t k = 0; k < rows_.size(); ++k) {
-        const contact::NodeSide& side = support_.nodes[k];
-        const std::vector<Point> free = free_tangents(side);
-        const double value = support_.friction_value.empty() ? support_.tangential.numbers[0] : support_.friction_value[k];
-        if (static_cast<int>(free.size()) != components || value == 0 || (coulomb && rows_[k].normal < 0)) continue;
-        for (const Point& t : free) rows_[k].add(add(side, t, support_.tangential, 0, side.weight), t);
-        bounds.push_back(coulomb ? value : value * side.weight);
+      for_each_rubbing(components, true, [&](std::size_t k, const std::vector<Point>& free) {
+        if (coulomb && rows_[k].normal < 0) return;
+        add_tangents(k, free);
+        bounds.push_back(coulomb ? bound(k) : bound(k) * support_.nodes[k].weight);
         normal.push_back(coulomb ? rows_[k].normal : -1);
-      }
+      });
       if (bounds.empty()) continue;
       auto law = coulomb ? problem::coulomb(std::move(bounds)) : problem::tresca(std::move(bounds));
       model_.problem.friction.push_back({name("tangential"), std::move(law), first, components, std::move(normal)});
     }
+    builder_.rows.open_group(name("tangential") + " (no slip)", problem::bilateral());
+    for (int components = 1; components < on_.dimension(); ++components)
+      for_each_rubbing(components, false, [&](std::size_t k, const std::vector<Point>& free) { add_tangents(k, free); });
+  }
+
+  /// Calls act(node, its free tangents) at nodes of a bound that is not 0, and finite where it `slips`.
+  template <class Act>
+  void for_each_rubbing(int components, bool slips, Act&& act) {
+    for (std::size_t k = 0; k < rows_.size(); ++k) {
+      const std::vector<Point> free = free_tangents(support_.nodes[k]);
+      if (static_cast<int>(free.size()) == components && bound(k) != 0 && std::isfinite(bound(k)) == slips) act(k, free);
+    }
+  }
+
+  void add_tangents(std::size_t k, const std::vector<Point>& free) {
+    for (const Point& t : free) rows_[k].add(add(support_.nodes[k], t, support_.tangential[k], 0, support_.nodes[k].weight), t);
+  }
+
+  /// The bound per length or area, or the coefficient; under a given pressure the bound is given.
+  double bound(std::size_t k) const {
+    const double value = support_.tangential[k].numbers[0];
+    return support_.tangential->follows && support_.normal->load ? value * std::max(0.0, support_.normal[k].force()) : value;
   }
 
   std::vector<Point> free_tangents(const contact::NodeSide& side) const {
@@ -83,7 +103,7 @@ class SupportRowMaker {
 
   /// The row direction·u = gap, or -1 where nothing moves.
   int add(const contact::NodeSide& side, const Point& direction, const LawChoice& law, double gap, double share) {
-    if (moves(side, direction)) return builder_.add(body_, side.own, direction, gap, share);
+    if (moves(side, direction)) return builder_.add(body_, side.own, direction, gap, share, &law);
     if (!unknown_along(model_.numbering[body_], side.own, direction, on_.dimension())) builder_.add(body_, side.own, direction, gap);  // no row; gap changes
     const double rounding = 1e-12 * on_.mesh->size();
     if (law->prescribes ? std::abs(gap) > rounding : law->stop() && gap < -rounding)
@@ -107,11 +127,11 @@ class SupportRowMaker {
 
 }  // namespace
 
-int RowBuilder::add(int body, const std::vector<contact::NodeWeight>& mean, const Point& direction, double& gap, double share) {
-  return add(body, -1, {{mean, {}, direction}}, gap, share);
+int RowBuilder::add(int body, const std::vector<contact::NodeWeight>& mean, const Point& direction, double& gap, double share, const LawChoice* own) {
+  return add(body, -1, {{mean, {}, direction}}, gap, share, own);
 }
 
-int RowBuilder::add(int body, int other_body, const std::vector<Pull>& pulls, double& gap, double share) {
+int RowBuilder::add(int body, int other_body, const std::vector<Pull>& pulls, double& gap, double share, const LawChoice* own_law) {
   const Pull* main = &pulls.front();
   const std::size_t held = model_.held.size();
   for (const Pull& pull : pulls) {
@@ -127,7 +147,7 @@ int RowBuilder::add(int body, int other_body, const std::vector<Pull>& pulls, do
     return -1;
   }
   places_.push_back({body, main->own.front().node});
-  return rows.add(gap, share);
+  return rows.add(gap, share, own_law);
 }
 
 void RowBuilder::add(int body, const elasticity::SpringRows& springs) {
@@ -177,12 +197,13 @@ void add_support_rows(int body, RowBuilder& builder, Model& model) {
     model.support_row.back().push_back(SupportRowMaker(body, support, builder, model)());
 }
 
-Point law_load(const LawSupport& support, const contact::NodeSide& side, int dimension) {
+Point law_load(const LawSupport& support, std::size_t k, int dimension) {
+  const contact::NodeSide& side = support.nodes[k];
   Point force{0, 0, 0};
   const Point t = contact::tangents(side.normal, dimension).front();
   for (int i = 0; i < dimension; ++i) {
-    force[i] -= support.normal.force() * side.weight * side.normal[i];
-    force[i] += support.tangential.force() * side.weight * t[i];
+    force[i] -= support.normal[k].force() * side.weight * side.normal[i];
+    force[i] += support.tangential[k].force() * side.weight * t[i];
   }
   return force;
 }
@@ -190,10 +211,10 @@ Point law_load(const LawSupport& support, const contact::NodeSide& side, int dim
 void add_law_loads(Body& body) {
   const int dim = body.dimension();
   for (const LawSupport& support : body.laws)
-    for (const contact::NodeSide& side : support.nodes) {
-      const Point force = law_load(support, side, dim);
+    for (std::size_t k = 0; k < support.nodes.size(); ++k) {
+      const Point force = law_load(support, k, dim);
       if (force == Point{0, 0, 0}) continue;
-      for (const contact::NodeWeight& own : side.own)
+      for (const contact::NodeWeight& own : support.nodes[k].own)
         for (int i = 0; i < dim; ++i) nodal_loads(body)[static_cast<std::size_t>(own.node) * dim + i] += own.weight * force[i];
     }
 }
@@ -202,7 +223,7 @@ double broken_energy(const Body& body) {
   double energy = 0;
   for (const LawSupport& s : body.laws)
     for (std::size_t k = 0; k < s.nodes.size(); ++k)
-      if (s.breaks(k)) energy += problem::breaking_energy(s.normal) * s.nodes[k].weight;
+      if (s.breaks(k)) energy += problem::breaking_energy(s.normal[k]) * s.nodes[k].weight;
   return energy;
 }
 

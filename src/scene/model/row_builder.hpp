@@ -24,10 +24,10 @@ class RowBuilder {
   /// The rigid shape of rows added from now on is displaced by this: part of their gap.
   void set_move(const mesh::Point& move) { move_ = move; }
   /// The row Σ pulls (at least one) = gap, of two bodies or of one and a rigid shape (other_body -1); returns it, or -1 where nothing
-  /// is unknown. `gap` is reduced by what prescribed components contribute and left so. `share`: see problem::Rows.
-  int add(int body, int other_body, const std::vector<Pull>& pulls, double& gap, double share = 1);
+  /// is unknown. `gap` is reduced by what prescribed components contribute and left so. `share`, `own`: see problem::Rows.
+  int add(int body, int other_body, const std::vector<Pull>& pulls, double& gap, double share = 1, const problem::LawChoice* own = nullptr);
   /// The row direction·Σ weight u.
-  int add(int body, const std::vector<contact::NodeWeight>& mean, const mesh::Point& direction, double& gap, double share = 1);
+  int add(int body, const std::vector<contact::NodeWeight>& mean, const mesh::Point& direction, double& gap, double share = 1, const problem::LawChoice* own = nullptr);
 
   /// Rows of springs, at the place of the first node that each moves.
   void add(int body, const elasticity::SpringRows& springs);
@@ -63,7 +63,7 @@ void add_contact_rows(const Scene& scene, const Contact& contact, const FreeJump
 void add_support_rows(int body, RowBuilder& builder, Model& model);
 
 /// The force of `load` laws on the body at a node.
-mesh::Point law_load(const LawSupport& support, const contact::NodeSide& side, int dimension);
+mesh::Point law_load(const LawSupport& support, std::size_t node, int dimension);
 /// Adds the forces of the body's `load` laws to its nodal loads.
 void add_law_loads(Body& body);
 

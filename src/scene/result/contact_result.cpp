@@ -33,18 +33,18 @@ Rubbing rubbing(const Contact& contact, const Model& model, int index, const sol
   const std::size_t count = contact.rows.size();
   Rubbing rubbing{std::vector<Point>(count, Point{0, 0, 0}), std::vector<char>(count, 0), std::vector<char>(count, 0)};
   std::vector<double> slipping(count, 0), sticking(count, 0);
-  const bool given = contact.friction == Friction::Kind::tresca, capped = contact.tangential->elastic() && contact.tangential->yields();
+  const bool given = contact.tangential->tresca(), capped = contact.tangential->elastic() && contact.tangential->yields();
   for (const FrictionRows& rows : model.friction[index]) {
     bool slips = false;
     for (int i = 0; i < rows.count; ++i) slips = slips || (capped ? !result.active_sets.empty() && !result.active_sets.back()[rows.row[i]] : !result.slipping.empty() && result.slipping[rows.row[i]]);
     for (const contact::Term& node : rows.cell.nodes) {
-      const double g = given ? contact.friction_value[node.row] : INFINITY;
+      const double g = given ? contact.tangential[node.row].numbers[0] : INFINITY;
       const double density = node.weight * (std::isfinite(g) ? g / rows.cell.bound : 1 / rows.cell.measure);
       for (int i = 0; i < rows.count; ++i) {
         const Point t = rows.at(i, contact.rows[node.row], contact.first.body->dimension());
         for (int k = 0; k < 3; ++k) rubbing.shear[node.row][k] -= density * result.state.lambda[rows.row[i]] * t[k];
       }
-      rubbing.rubs[node.row] = contact.friction != Friction::Kind::none || capped;
+      rubbing.rubs[node.row] = contact.tangential->rubs() || capped;
       (slips ? slipping : sticking)[node.row] += node.weight;
     }
   }
@@ -188,9 +188,9 @@ ContactResult Solution::contact(const Contact& asked) const {
     node.pressure = pressure[k];
     node.force = pressure[k] * row.weight;
     node.shear = rubbing.shear[k];
-    const bool pulled = contact.friction == Friction::Kind::coulomb && node.pressure < 0;  // slides freely
+    const bool pulled = contact.tangential->follows && node.pressure < 0;  // slides freely
     const bool follows = r >= 0 ? active(r) : node.pressure > 0;
-    if (contact.normal->acts() && problem::status_of(contact.normal.spec->traits, follows, node.pressure != 0) != problem::Status::open) node.status = problem::Status::closed;
+    if (contact.normal->acts() && problem::status_of(*contact.normal.operator->(), follows, node.pressure != 0) != problem::Status::open) node.status = problem::Status::closed;
     if ((node.status == problem::Status::closed || !contact.normal->acts()) && rubbing.rubs[k])
       node.status = rubbing.slips[k] || pulled ? problem::Status::slip : problem::Status::stick;
     for (int i = 0; i < 3; ++i) {

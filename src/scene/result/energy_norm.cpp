@@ -29,8 +29,8 @@ double squared_of_laws(const Solution& at, int index, const std::vector<double>&
         sum += side.weight * problem::row_law(law)->respond(0, x).slope * moved * moved;
       };
       const SupportRows& rows = at.model().support_row[index][s][k];
-      if (!support.breaks(k)) add(support.normal, rows.normal, side.normal);
-      for (int i = 0; i < rows.count; ++i) add(support.tangential, rows.row[i], rows.direction[i]);
+      if (!support.breaks(k)) add(support.normal[k], rows.normal, side.normal);
+      for (int i = 0; i < rows.count; ++i) add(support.tangential[k], rows.row[i], rows.direction[i]);
     }
   }
   return sum;
@@ -112,8 +112,8 @@ class Lumping {
       for (int a = 0; a < body.mesh->topology().nodes_per_facet; ++a) sides.push_back(side_at.at({static_cast<int>(f), body.mesh->facet_node(support.facets[f], a)}));
       for (const std::size_t side : sides) {
         if (support.breaks(side)) continue;
-        add_row(b, support, f, sides, side, support.normal, rows[side].normal, nullptr);
-        for (int i = 0; i < rows[side].count; ++i) add_row(b, support, f, sides, side, support.tangential, rows[side].row[i], &rows[side].direction[i]);
+        add_row(b, support, f, sides, side, support.normal[side], rows[side].normal, nullptr);
+        for (int i = 0; i < rows[side].count; ++i) add_row(b, support, f, sides, side, support.tangential[side], rows[side].row[i], &rows[side].direction[i]);
       }
     }
   }
@@ -169,7 +169,7 @@ double squared_energy_norm(const Solution& at, int index, const std::vector<doub
 std::vector<std::vector<double>> lumping_of_laws(const Solution& solution) {
   for (const Body& body : solution.model().bodies)
     for (const LawSupport& support : body.laws)
-      if (elastic(support.normal) || elastic(support.tangential)) return Lumping(solution)();
+      if (support.normal->elastic() || support.tangential->elastic()) return Lumping(solution)();
   return {};
 }
 

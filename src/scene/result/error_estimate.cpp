@@ -83,8 +83,8 @@ double slip_law(const Contact& contact, const contact::SurfaceFacet& f, const co
   for (int a = 0; a < f.corners; ++a) {
     if (f.row[a] < 0) continue;
     const ContactNode& node = result.nodes[f.row[a]];
-    const double value = contact.friction_value[f.row[a]];
-    bound[a] = contact.friction == Friction::Kind::tresca ? value : value * std::max(0.0, node.pressure);
+    const double value = contact.tangential[f.row[a]].numbers[0];
+    bound[a] = contact.tangential->tresca() ? value : value * std::max(0.0, node.pressure);
     slip[a] = std::sqrt(dot(node.slip, node.slip));
     size[a] = std::sqrt(dot(node.shear, node.shear));
     for (int i = 0; i < 3; ++i) stiffness = std::max(stiffness, weight.inverse[i][i]);
@@ -169,7 +169,7 @@ ErrorEstimate Solution::make_error_estimate() const {
       const auto weight = elasticity::traction_weight(*own.mesh, own.material.at(f.facet.cell), f.facet);
       if (contact.normal->stop()) cells[f.facet.cell].complementarity += complementarity(f, gram, *results[c], weight);
       // Slip is counted from the beginning: in a history only its first step's is the increment.
-      if (contact.friction != Friction::Kind::none && past_.slip.size() == 0)
+      if (contact.tangential->rubs() && past_.slip.size() == 0)
         cells[f.facet.cell].friction += slip_law(contact, f, gram, *results[c], weight);
     }
   }

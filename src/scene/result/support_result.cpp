@@ -62,19 +62,19 @@ SupportNode Solution::support_node(const LawSupport& support, std::size_t k, con
   SupportNode node{side.node, body.mesh->point(side.node), side.normal, side.weight};
   const Point u = contact::mean(side.own, displacement(index), body.dimension());
   node.away = -dot(u, side.normal);
-  const Point load = law_load(support, side, body.dimension()), force = law_force(side, rows, lambda);
+  const Point load = law_load(support, k, body.dimension()), force = law_force(side, rows, lambda);
   for (int i = 0; i < 3; ++i) node.slip[i] = u[i] + node.away * side.normal[i];
   const Point sum = mesh::plus(load, force);
   node.pressure = -dot(sum, side.normal) / side.weight;
   for (int i = 0; i < 3; ++i) node.shear[i] = (sum[i] + node.pressure * side.weight * side.normal[i]) / side.weight;
   node.broken = support.breaks(k);
   if (rows.normal >= 0 || support.normal->load)
-    node.status = problem::status_of(support.normal.spec->traits, rows.normal >= 0 && active(rows.normal), node.pressure != 0);
+    node.status = problem::status_of(*support.normal.operator->(), rows.normal >= 0 && active(rows.normal), node.pressure != 0);
   if (rows.count == 0 && !support.tangential->load) return node;
   const bool rubs = support.tangential->rubs();
   const bool pulled = support.tangential->follows && node.pressure < 0;  // slides freely
   const auto slips = [&](int r) { return pulled || (rubs ? !result_.slipping.empty() && result_.slipping[r] : !active(r)); };
-  node.tangential = problem::status_of(support.tangential.spec->traits, std::none_of(rows.row, rows.row + rows.count, slips), true);
+  node.tangential = problem::status_of(*support.tangential.operator->(), std::none_of(rows.row, rows.row + rows.count, slips), true);
   return node;
 }
 
@@ -96,7 +96,7 @@ Point Solution::reaction(const Part& part) const {
   for (std::size_t s = 0; s < body.laws.size(); ++s)
     for (std::size_t k = 0; k < body.laws[s].nodes.size() && body.laws[s].part == mark; ++k)
       sum = mesh::plus(sum, mesh::plus(law_force(body.laws[s].nodes[k], model_.support_row[index][s][k], result_.state.lambda),
-                                       law_load(body.laws[s], body.laws[s].nodes[k], dim)));
+                                       law_load(body.laws[s], k, dim)));
   std::set<std::size_t> counted;
   for (const Support& support : body.supports)
     for (std::size_t k = 0; k < support.nodes.size(); ++k)

@@ -114,11 +114,11 @@ void see_rounding(const Solution& solution, std::size_t index, std::vector<std::
 void see_held(const Solution& solution, std::size_t index, std::vector<std::string>& all) {
   const Contact& contact = *solution.scene().contacts[index];
   const std::vector<int>& row = solution.model().contact_row[index];
-  const problem::LawChoice& law = contact.normal;
+  const problem::LawChoice& law = contact.normal.law;
   if (const auto held = std::count(row.begin(), row.end(), -1); held > 0 && law->acts() && !law->stop() && !law->prescribes)
     all.push_back(text(contact.name, ": supports hold ", held, " of its ", row.size(), " nodes across the contact; what its law (", law.spec->words,
                        ") would give there is left out of forces and energy"));
-  if (contact.friction == Friction::Kind::coulomb && std::all_of(row.begin(), row.end(), [](int r) { return r < 0; }))
+  if (contact.tangential->follows && std::all_of(row.begin(), row.end(), [](int r) { return r < 0; }))
     all.push_back(contact.name + ": supports hold all of it across the contact: they bear what presses, not the contact, and there is no friction");
 }
 

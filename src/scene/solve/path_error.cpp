@@ -35,7 +35,7 @@ std::shared_ptr<Scene> as_solved(const Solution& solution) {
     body = solution.body(static_cast<int>(b));
     body.origin = origin;
     for (LawSupport& law : body.laws)
-      for (problem::LawChoice* part : {&law.normal, &law.tangential})
+      for (problem::LawAlong* part : {&law.normal, &law.tangential})
         if ((*part)->load) part->scale(0);  // among the forces already
   }
   return scene;

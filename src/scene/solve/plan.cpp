@@ -23,6 +23,12 @@ std::string describe_body(const Body& body) {
               body.unrefined ? ", refined by the ranks" : "");
 }
 
+bool no_slip(const Contact& contact) {
+  for (std::size_t k = 0; k < contact.rows.size(); ++k)
+    if (std::isfinite(contact.tangential[k].bound())) return false;
+  return true;
+}
+
 std::string describe_contact(const Contact& contact) {
   static const char* pairing[] = {" node pairs", " nodes, node to segment", " nodes, mortar"};
   static const char* how[] = {"", ", node to segment", ", mortar"};
@@ -32,10 +38,10 @@ std::string describe_contact(const Contact& contact) {
       contact.discretisation.multipliers == contact::Multipliers::p1_p0 ? ", multipliers P1-P0" : "";
   const std::string normal = contact.normal->stop() ? "" : "normal " + problem::describe(contact.normal) + ", ";
   return text("  ", contact.name, ": ", contact.rows.size(), " rows, ", normal,
-              contact.friction == Friction::Kind::tresca    ? std::all_of(contact.friction_value.begin(), contact.friction_value.end(), [](double g) { return std::isinf(g); }) ? "no slip" : "given friction"
-              : contact.friction == Friction::Kind::coulomb ? "Coulomb friction"
-              : !contact.tangential->acts()                 ? "frictionless"
-                                                            : "tangential " + problem::describe(contact.tangential),
+              !contact.tangential->acts()   ? "frictionless"
+              : contact.tangential->follows ? "Coulomb friction"
+              : contact.tangential->rubs()  ? no_slip(contact) ? "no slip" : "given friction"
+                                            : "tangential " + problem::describe(contact.tangential),
               how[static_cast<int>(contact.pairing)], multipliers);
 }
 

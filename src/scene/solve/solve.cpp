@@ -43,7 +43,7 @@ void require_same_rows(const Model& model, const Model& before) {
     same = b < before.support_row.size() && model.support_row[b].size() == before.support_row[b].size();
     for (std::size_t s = 0; same && s < model.support_row[b].size(); ++s)
       same = model.bodies[b].laws[s].part == before.bodies[b].laws[s].part &&
-             model.bodies[b].laws[s].tangential.spec == before.bodies[b].laws[s].tangential.spec;
+             model.bodies[b].laws[s].tangential.law.spec == before.bodies[b].laws[s].tangential.law.spec;
   }
   if (!same)
     throw InputError("the solution given as 'after' has other contact rows than the scene; it must be of the same "
@@ -81,7 +81,7 @@ int break_worst(const Model& model, const algebra::Vector& lambda, std::vector<B
     const LawSupport& on = model.bodies[b].laws[s];
     const int row = model.support_row[b][s][k].normal;
     if (row < 0 || on.breaks(k) || !(lambda[row] > 0)) return 0.0;
-    return lambda[row] / (on.normal.bound() * on.nodes[k].weight);
+    return lambda[row] / (on.normal[k].bound() * on.nodes[k].weight);
   };
   double worst = 0;
   for_each_breaking(model.bodies, [&](auto b, auto s, auto k) { worst = std::max(worst, overload(b, s, k)); });
@@ -115,7 +115,7 @@ std::string cascade_note(const Model& model, const algebra::Vector& u, int round
     if (!on.breaks(k)) return;
     const double against = mesh::dot(mesh::at_node(moved[b], on.nodes[k].node, model.bodies[b].dimension()), on.nodes[k].normal);
     ++broken;
-    back += on.normal.stiffness() * against < (1 - kEqual) * on.normal.bound();
+    back += on.normal[k].stiffness() * against < (1 - kEqual) * on.normal[k].bound();
   });
   if (broken == 0) return "";
   std::string note = text("; ", broken, broken == 1 ? " node is" : " nodes are", " broken, those of this load in ", rounds,

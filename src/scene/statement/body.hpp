@@ -92,6 +92,18 @@ struct SpringPatch {
   elasticity::FacetSpring spring;
 };
 
+/// A law as a statement gives it: the same everywhere, or a function of the place, asked at the nodes and not kept.
+struct GivenLaw {
+  problem::LawChoice law;
+  std::function<problem::LawChoice(const mesh::Point&)> varies = nullptr;
+
+  GivenLaw() = default;
+  GivenLaw(problem::LawChoice same) : law(same) {}
+  GivenLaw(const problem::LawSpec& spec, elasticity::ScalarField first) : varies([&spec, first](const mesh::Point& x) { return problem::LawChoice{&spec, {first(x)}}; }) {}
+  /// Throws InputError where a number is not what the law allows, and for unlike laws.
+  problem::LawAlong at(const std::vector<mesh::Point>& places, int dimension) const;
+};
+
 /// What laws do along the normal and the tangents of a part, at each of its nodes (one entry a node and adjoining
 /// side) for that node's share of the boundary, ∫φ: forces are summed by the trapezoidal rule, as those of contact.
 ///
@@ -103,8 +115,7 @@ struct LawSupport {
   PartMark part;
   std::vector<mesh::Facet> facets;
   std::vector<contact::NodeSide> nodes;
-  problem::LawChoice normal, tangential;
-  std::vector<double> friction_value = {};  ///< by node, of friction that varies; empty: the law's own number
+  problem::LawAlong normal, tangential;  ///< by node
   std::vector<char> broken = {};  ///< of a breaking normal law: the nodes where it is; empty: none
   bool breaks(std::size_t node) const { return node < broken.size() && broken[node]; }
 };
@@ -216,14 +227,15 @@ std::vector<mesh::Point> cell_forces(const Body& body);
 void spring(Part& part, const std::array<elasticity::ScalarField, 3>& stiffness);
 
 /// Support laws on a part, numbers per length (2-D) or area (3-D); those of kind `free` are not given. A
-/// second call on the same part may give the law that the first left free. `friction`: of friction that varies, its bound or
-/// coefficient, asked at the nodes. Throws InputError, leaving the body as it
+/// second call on the same part may give the law that the first left free. Throws InputError, leaving the body as it
 /// was, where Coulomb friction has no normal law, a number is negative or not finite, a tangential law has no meaning (one-sided; in space also a load, a
 /// displacement other than 0 and capped elastic), a facet of the part has a law in that direction already, or
 /// other supports hold that direction at all nodes of the part.
-void support(Part& part, const problem::LawChoice& normal, const problem::LawChoice& tangential, const elasticity::ScalarField& friction = {});
+void support(Part& part, const GivenLaw& normal, const GivenLaw& tangential);
 /// Throws InputError where a law cannot be tangential: one that tells directions, and in space what is not isotropic.
-void require_tangential(const problem::LawChoice& law, int dimension);
+void require_tangential(const problem::LawAlong& law, int dimension);
+/// Throws InputError where a law cannot be normal.
+void require_normal(const problem::LawAlong& law);
 /// Throws InputError where supports hold a direction, normal or tangential, that a law of the body is about, at all
 /// nodes of its part.
 void require_laws_free(const Body& body, const elasticity::Numbering& numbering);

@@ -73,40 +73,27 @@ void refuse_repeated_shape(const Scene& scene, const Contact& fresh) {
 
 /// Throws InputError where an interface of two parts, or of a part and a rigid shape, cannot have the law.
 void require_of_interface(const Contact& contact) {
-  const auto refuse = [&](const problem::LawChoice& law, const char* direction, const std::string& why) {
-    throw InputError(text("the ", contact.name, " cannot have the ", direction, " law ", law.spec->words, ": ", why));
+  const auto refuse = [&](const problem::LawAlong& law, const char* direction, const std::string& why) {
+    throw InputError(text("the ", contact.name, " cannot have the ", direction, " law ", law.law.spec->words, ": ", why));
   };
-    problem::require_valid(contact.normal);
   if (contact.normal->load) refuse(contact.normal, "normal", "a given pressure is no law of an interface; part:pressure on each part is the same");
   if (contact.normal->breaks) refuse(contact.normal, "normal", "only supports break (part:support); its force is not monotone, and a contact's nodes have no memory of it");
+  require_normal(contact.normal);
   require_tangential(contact.tangential, contact.first.body->dimension());
   if (contact.tangential->load) refuse(contact.tangential, "tangential", "a given shear is no law of an interface; part:load on each part is the same");
-  if (contact.tangential.displacement() != 0) refuse(contact.tangential, "tangential", "a given slip is not known; prescribed(0) is no slip");
-  if (contact.friction == Friction::Kind::coulomb && !problem::row_law(contact.normal))
+  if (contact.tangential.moves()) refuse(contact.tangential, "tangential", "a given slip is not known; prescribed(0) is no slip");
+  if (contact.tangential->follows && !contact.normal->acts())
     refuse(contact.normal, "normal", "Coulomb's bound is mu times the normal force, and here there is none; take given friction");
 }
 
-/// Sets the laws; friction is evaluated at the contact nodes.
+/// Sets the laws, their numbers at the contact nodes.
 void set_laws(Contact& contact, const InterfaceLaws& laws) {
-  contact.normal = laws.normal;
-  contact.tangential = laws.tangential;
-  Friction friction = laws.friction;
-  if (contact.tangential->prescribes) friction = {Friction::Kind::tresca, [](const mesh::Point&) { return INFINITY; }};
-  if (contact.tangential->rubs() && !contact.tangential->follows) friction = {Friction::Kind::tresca, [g = contact.tangential.bound()](const mesh::Point&) { return g; }};
-  contact.friction = friction.kind;
+  std::vector<mesh::Point> places;
+  for (const contact::ContactRow& row : contact.rows) places.push_back(contact.first.body->mesh->point(row.node));
+  contact.normal = laws.normal.at(places, contact.first.body->dimension());
+  contact.tangential = laws.tangential.at(places, contact.first.body->dimension());
   require_of_interface(contact);
-  if (friction.kind == Friction::Kind::none) return;
-  contact.tangential = {};
-  const bool given = friction.kind == Friction::Kind::tresca;
-  for (const contact::ContactRow& row : contact.rows) {
-    const mesh::Point x = contact.first.body->mesh->point(row.node);
-    const double value = friction.value(x);
-    if (!(value >= 0) || (!given && !std::isfinite(value)))
-      throw InputError(text("the friction ", given ? "bound" : "coefficient", " is ", std::isnan(value) ? "not a number" : text(value), " at ",
-                            point_text(x.data(), contact.first.body->dimension()), "; it must be zero or positive",
-                            given ? " (math.huge: no slip at all)" : " and finite"));
-    contact.friction_value.push_back(value);
-  }
+  if (contact.tangential->prescribes) contact.tangential = {{&problem::laws::friction, {INFINITY}}};
 }
 
 /// Throws InputError where the friction does not go with the multipliers.
@@ -114,11 +101,11 @@ void set_discretisation(Contact& contact, const Discretisation& discretisation) 
   contact.discretisation = discretisation;
   const bool own_size = discretisation.friction_size > 0;
   if (own_size && (discretisation.multipliers == contact::Multipliers::nodal ||
-                   contact.friction == Friction::Kind::none))
+                   !contact.tangential->rubs()))
     throw InputError("'friction_size' is the size of the cells of friction with multipliers = \"P1-P0\"; it is given "
                      "without them");
   if (discretisation.ends != CellEnds::own && (discretisation.multipliers == contact::Multipliers::nodal ||
-                                               contact.friction == Friction::Kind::none || contact.first.body->dimension() != 2))
+                                               !contact.tangential->rubs() || contact.first.body->dimension() != 2))
     throw InputError("'friction_ends' is about the cells of friction on a line, with multipliers = \"P1-P0\"; it is given "
                      "without them");
   if (discretisation.multipliers == contact::Multipliers::nodal) return;
@@ -131,12 +118,11 @@ void set_discretisation(Contact& contact, const Discretisation& discretisation) 
                             ", whose pressure is P1 as it is"));
   if (contact.pairing != contact::Pairing::matching)
     throw InputError("multipliers = \"P1-P0\" are for matching nodes; with nodes that do not match take \"nodal\"");
-  if (contact.friction == Friction::Kind::coulomb)
+  if (contact.tangential->follows)
     throw InputError("Coulomb friction does not go with multipliers = \"P1-P0\": their friction rows are weighted "
                      "with the bound, which here follows from the pressure sought; take \"nodal\"");
-  const auto infinite = std::count_if(contact.friction_value.begin(), contact.friction_value.end(),
-                                      [](double g) { return std::isinf(g); });
-  if (infinite > 0 && infinite < std::ssize(contact.friction_value))
+  const auto infinite = std::count_if(contact.tangential.at.begin(), contact.tangential.at.end(), [](const auto& numbers) { return std::isinf(numbers[0]); });
+  if (infinite > 0 && infinite < std::ssize(contact.tangential.at))
     throw InputError("the friction bound is infinite on a part of the contact only; with multipliers = \"P1-P0\" it "
                      "must be finite, or infinite everywhere");
 }

@@ -66,13 +66,21 @@ Body Loading::applied_to(const Body& body) const {
     for (mesh::Point& value : support.values)
       for (double& v : value) v *= of(support.load_case);
   for (LawSupport& support : scaled.laws)
-    for (problem::LawChoice* law : {&support.normal, &support.tangential})
+    for (problem::LawAlong* law : {&support.normal, &support.tangential})
       law->scale(rest);
   add_law_loads(scaled);
   for (FacetLoad& load : scaled.facet_loads) {
     for (double& v : load.values) v *= of(load.load_case);
     load.load_case.clear();
   }
+  return scaled;
+}
+
+std::shared_ptr<const Contact> Loading::applied_to(const std::shared_ptr<const Contact>& contact) const {
+  const double rest = of("");
+  if (rest == 1 || !contact->normal.moves()) return contact;
+  auto scaled = std::make_shared<Contact>(*contact);
+  scaled->normal.scale(rest);
   return scaled;
 }
 

@@ -32,6 +32,8 @@ struct Loading {
   void take(const Step& step, const Scene& scene);
   /// The body with its loads and prescribed displacements so scaled, all of no case.
   Body applied_to(const Body& body) const;
+  /// The contact with what its laws prescribe so scaled.
+  std::shared_ptr<const Contact> applied_to(const std::shared_ptr<const Contact>& contact) const;
 };
 
 /// The names of the load cases of a scene, each once.

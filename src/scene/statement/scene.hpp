@@ -12,24 +12,15 @@
 
 namespace dotyk::scene {
 
-/// Friction of a contact: none, given (Tresca, a bound per length or area) or Coulomb's coefficient,
-/// a number or a function of position.
-struct Friction {
-  enum class Kind { none, tresca, coulomb };
-  Kind kind = Kind::none;
-  elasticity::ScalarField value;  ///< evaluated at the contact nodes when the contact is made, not kept
-};
-
 /// What an interface does along its normal and its tangents. Numbers are per length or area; v along the normal is the gap as the bodies are deformed, v along the
-/// tangents the slip of the first part, and the reaction on it pushes towards v > 0. With Signorini's normal law contact opens and closes; friction is a
-/// tangential law of its own, so that only one of the two may be given.
+/// tangents the slip of the first part, and the reaction on it pushes towards v > 0. With Signorini's normal law contact opens and closes.
 struct InterfaceLaws {
-  problem::LawChoice normal{&problem::laws::signorini};
-  problem::LawChoice tangential{};
-  Friction friction{};
+  GivenLaw normal{problem::LawChoice{&problem::laws::signorini}};
+  GivenLaw tangential{};
   InterfaceLaws() = default;
-  InterfaceLaws(Friction given) : friction(std::move(given)) {}
-  InterfaceLaws(Friction::Kind kind, elasticity::ScalarField value) : friction{kind, std::move(value)} {}
+  InterfaceLaws(GivenLaw along) : tangential(std::move(along)) {}
+  InterfaceLaws(GivenLaw across, GivenLaw along) : normal(std::move(across)), tangential(std::move(along)) {}
+  InterfaceLaws(const problem::LawSpec& friction, elasticity::ScalarField value) : tangential(friction, std::move(value)) {}
 };
 
 /// The half cells of friction at the ends of a contact line: a cell each (m + 1 cells on m edges), joined to the next ones (m − 1), or without
@@ -52,10 +43,8 @@ struct Contact {
   Part first;
   Part second;       ///< second.body is null against a rigid shape
   std::vector<contact::ContactRow> rows;   ///< of a contact
-  problem::LawChoice normal{&problem::laws::signorini};  ///< see InterfaceLaws
-  problem::LawChoice tangential{};        ///< elastic, perhaps capped; free where there is friction or nothing
-  Friction::Kind friction = Friction::Kind::none;
-  std::vector<double> friction_value;      ///< of each row: bound per length or area, or coefficient
+  problem::LawAlong normal{{&problem::laws::signorini}};  ///< by row; see InterfaceLaws
+  problem::LawAlong tangential{};         ///< an infinite bound of friction: no slip
   Discretisation discretisation;
   contact::Pairing pairing = contact::Pairing::matching;  ///< of two parts
   bool turned = false;  ///< `first` and `second` are the parts in other order than they were given: see contact::pair_rows

@@ -36,51 +36,39 @@ bool shares_facet(const LawSupport& a, const LawSupport& b) {
   return std::any_of(b.facets.begin(), b.facets.end(), [&](const mesh::Facet& f) { return of_a.contains(f); });
 }
 
-bool given(const LawChoice& law) { return law->acts(); }
+bool given(const problem::LawAlong& law) { return law->acts(); }
 
 void require_no_other(const Body& body, const LawSupport& added) {
   for (const LawSupport& known : body.laws) {
     const bool normal = given(known.normal) && given(added.normal);
     if ((!normal && !(given(known.tangential) && given(added.tangential))) || !shares_facet(known, added)) continue;
     throw InputError(text("part '", added.part.name, "' of '", body.name, "' has a ", normal ? "normal" : "tangential", " law already, ",
-                          (normal ? known.normal : known.tangential).spec->words,
+                          (normal ? known.normal : known.tangential).law.spec->words,
                           known.part == added.part ? "" : ", as part of '" + known.part.name + "'"));
   }
 }
 
 /// Is a law along these directions, or one of them, of use at one node at least?
 template <class Directions>
-void require_free(const Body& body, const elasticity::Numbering& numbering, const LawSupport& on, const char* which, const LawChoice& law,
+void require_free(const Body& body, const elasticity::Numbering& numbering, const LawSupport& on, const char* which, const problem::LawAlong& law,
                   const Directions& directions) {
   if (!given(law)) return;
   for (const contact::NodeSide& side : on.nodes)
     for (const Point& d : directions(side))
       if (moves(body, numbering, side, d)) return;
   throw InputError(text("contradictory supports on '", body.name, "': the ", which, " displacement of part '", on.part.name,
-                        "' is held at each of its nodes, and has the law ", law.spec->words, " as well"));
+                        "' is held at each of its nodes, and has the law ", law.law.spec->words, " as well"));
 }
 
-/// Throws InputError for Coulomb friction without a normal law; under a given pressure its bound is given.
-void settle_coulomb(const Body& body, LawSupport& on) {
-  if (!on.tangential->follows) return;
-  if (!given(on.normal))
+void require_normal_force(const Body& body, const LawSupport& on) {
+  if (on.tangential->follows && !given(on.normal))
     throw InputError(text("part '", on.part.name, "' of '", body.name, "' has Coulomb friction and no normal law: its bound is mu times the normal reaction; give 'normal', or given friction"));
-  if (!on.normal->load) return;
-  const double pressure = std::max(0.0, on.normal.force());
-  on.tangential = {&problem::laws::friction, {on.tangential.numbers[0] * pressure}};
-  for (double& mu : on.friction_value) mu *= pressure;
 }
 
-/// The bound or coefficient at each node, where it varies.
-std::vector<double> at_nodes(const Body& body, const LawSupport& on, const elasticity::ScalarField& friction) {
-  std::vector<double> values;
-  for (const contact::NodeSide& side : on.nodes) {
-    const Point x = body.mesh->point(side.node);
-    values.push_back(friction(x));
-    if (!(values.back() >= 0) || !std::isfinite(values.back()))
-      throw InputError(text("the friction is ", std::isnan(values.back()) ? "not a number" : text(values.back()), " at ", point_text(x.data(), body.dimension()), "; it must be zero or positive, and finite"));
-  }
-  return values;
+std::vector<Point> places(const Body& body, const std::vector<contact::NodeSide>& sides) {
+  std::vector<Point> x;
+  for (const contact::NodeSide& side : sides) x.push_back(body.mesh->point(side.node));
+  return x;
 }
 
 }  // namespace
@@ -164,20 +152,37 @@ void displace(Part& part, const std::array<elasticity::ScalarField, 3>& componen
   hold(*part.body, [&](Body& body) { body.supports.push_back(std::move(support)); });
 }
 
-void require_tangential(const LawChoice& law, int dimension) {
+problem::LawAlong GivenLaw::at(const std::vector<Point>& places, int dimension) const {
+  problem::LawAlong along{varies && !places.empty() ? varies(places.front()) : law};
+  for (std::size_t k = 0; varies && k < places.size(); ++k) {
+    const auto here = [&] { return point_text(places[k].data(), dimension); };
+    const LawChoice own = varies(places[k]);
+    if (own.spec != along.law.spec) throw InputError(text("the law is ", along.law.spec->words, " at one node and ", own.spec->words, " at ", here(), "; parts with laws of their own may differ"));
+    problem::require_valid(own, " at " + here());
+    along.at.push_back(own.numbers);
+  }
+  if (!varies) problem::require_valid(law);
+  if (std::all_of(along.at.begin(), along.at.end(), [&](const auto& numbers) { return numbers == along.law.numbers; })) along.at.clear();
+  return along;
+}
+
+void require_normal(const problem::LawAlong& law) {
+  if (law->follows) throw InputError(text("a ", law.law.spec->words, " law cannot be normal: its bound follows the normal force; give it as tangential"));
+}
+
+void require_tangential(const problem::LawAlong& law, int dimension) {
   const bool plane = dimension == 2;
   const char* allowed = plane ? "free, prescribed, load, elastic, friction and capped_elastic"
                               : "free, prescribed(0), elastic and friction, which have no direction of their own";
   const auto refuse = [&](const std::string& why) {
-    throw InputError(text("a ", law.spec->words, " law cannot be tangential: ", why,
+    throw InputError(text("a ", law.law.spec->words, " law cannot be tangential: ", why,
                           "; a tangential law ", plane ? "in the plane" : "in space", " is one of ", allowed));
   };
-  problem::require_valid(law);
   if (law->one_sided()) refuse("slip to either side is alike, and nothing is open");
   if (law->directed()) refuse("slip to either side is alike");
   if (plane) return;
   if (law->load) refuse("it does not say along which tangent (part:load does)");
-  if (law.displacement() != 0) refuse("it does not say along which tangent (part:displace does)");
+  if (law->prescribes && law.moves()) refuse("it does not say along which tangent (part:displace does)");
   if (law->elastic() && law->yields()) refuse("a spring that slips is not among the laws of two components");
 }
 
@@ -219,22 +224,23 @@ std::string describe(const LawSupport& support) {
   return out;
 }
 
-void support(Part& part, const LawChoice& normal, const LawChoice& tangential, const elasticity::ScalarField& friction) {
+void support(Part& part, const GivenLaw& normal, const GivenLaw& tangential) {
   Body& body = *part.body;
-  problem::require_valid(normal);
-  require_tangential(tangential, body.dimension());
-  LawSupport added{part.mark(), part.facets, law_sides(contact::corner_sides(*part.body->mesh, part.facets)), normal, tangential};
-  if (friction) added.friction_value = at_nodes(body, added, friction);
+  LawSupport added{part.mark(), part.facets, law_sides(contact::corner_sides(*part.body->mesh, part.facets)), {}, {}};
+  const std::vector<Point> x = places(body, added.nodes);
+  added.normal = normal.at(x, body.dimension()), added.tangential = tangential.at(x, body.dimension());
+  require_normal(added.normal);
+  require_tangential(added.tangential, body.dimension());
   require_no_other(body, added);
   hold(body, [&](Body& changed) {
     const auto same = std::find_if(changed.laws.begin(), changed.laws.end(), [&](const LawSupport& l) { return l.part == added.part; });
     if (same == changed.laws.end()) {
       changed.laws.push_back(std::move(added));
     } else {
-      if (given(normal)) same->normal = normal;
-      if (given(tangential)) same->tangential = tangential, same->friction_value = added.friction_value;
+      if (given(added.normal)) same->normal = added.normal;
+      if (given(added.tangential)) same->tangential = added.tangential;
     }
-    for (LawSupport& on : changed.laws) settle_coulomb(changed, on);
+    for (const LawSupport& on : changed.laws) require_normal_force(changed, on);
   });
 }
 

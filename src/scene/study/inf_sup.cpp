@@ -61,7 +61,7 @@ Density cell_density(const Contact& contact, const contact::Surface& surface, co
     const contact::SurfaceFacet& f = surface.facets[piece.facet];
     contact::DensityPiece d{piece.facet, piece.half, {0, 0, 0, 0}};
     for (int a = 0; a < f.corners; ++a) {
-      const double g = f.row[a] >= 0 ? contact.friction_value[f.row[a]] : INFINITY;
+      const double g = f.row[a] >= 0 ? contact.tangential[f.row[a]].numbers[0] : INFINITY;
       d.corner[a] = std::isfinite(g) ? (own ? 1 : g) / cell.bound : 1 / cell.measure;
     }
     density.push_back(d);

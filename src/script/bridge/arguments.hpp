@@ -133,6 +133,10 @@ class Arguments {
   bool holds(const std::string& name) const {
     return has(name) && object_at(L_, slot(name), Wrapped<T>::name);
   }
+  // The stack index of a value kept with the object at object_index, 0 if none.
+  int kept(int object_index, const std::string& name) const;
+  // A function kept with an object; empty or one.
+  std::vector<Function> kept_function(int object_index, const std::string& name) const;
   // The objects of a list.
   template <class T>
   std::vector<std::shared_ptr<T>> objects(const std::string& name) const {

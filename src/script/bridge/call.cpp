@@ -105,13 +105,13 @@ void Call::keep(int object_index, const std::string& name, int slot) const {
   lua_pop(L_, 1);
 }
 
-int Call::kept(int object_index, const std::string& name) const {
+int Arguments::kept(int object_index, const std::string& name) const {
   luaL_checkstack(L_, 4, nullptr);
   const bool found = lua_getiuservalue(L_, object_index, 1) == LUA_TTABLE && lua_getfield(L_, -1, name.c_str()) != LUA_TNIL;
   return found ? lua_gettop(L_) : 0;
 }
 
-std::vector<Function> Call::kept_function(int object_index, const std::string& name) const {
+std::vector<Function> Arguments::kept_function(int object_index, const std::string& name) const {
   const int index = kept(object_index, name);
   if (index == 0) return {};
   return {Function(L_, index, name, callee_)};

@@ -45,10 +45,6 @@ class Call : public Arguments {
     return {};
   }
   void keep(int object_index, const std::string& name, int slot) const;  // the value at a stack index, as name
-  // The stack index of a value kept with the object at object_index, 0 if none.
-  int kept(int object_index, const std::string& name) const;
-  // A function kept with an object; empty or one.
-  std::vector<Function> kept_function(int object_index, const std::string& name) const;
 
  private:
   void check_self() const;

@@ -61,7 +61,7 @@ bool Function::finish(int count) const {
   return truth;
 }
 
-void Function::numbers(std::span<const double> arguments, std::span<double> values) const {
+void Function::numbers(std::span<const double> arguments, std::span<double> values, bool infinite) const {
   const int base = lua_gettop(L_);
   call(arguments, LUA_MULTRET);
 
@@ -79,7 +79,7 @@ void Function::numbers(std::span<const double> arguments, std::span<double> valu
       fail(describe_value(L_, index) + (packed ? " (write: return fx, fy)" : ", " + wanted));
     }
     values[i] = lua_tonumber(L_, index);
-    if (!std::isfinite(values[i])) fail(std::isnan(values[i]) ? "nan (not a number)" : number_text(values[i]));
+    if (std::isnan(values[i]) || (std::isinf(values[i]) && !infinite)) fail(std::isnan(values[i]) ? "nan (not a number)" : number_text(values[i]));
   }
   if (given != values.size()) fail(counted(given, "number") + ", " + wanted);
   lua_settop(L_, base);

@@ -20,8 +20,8 @@ class Function {
   // the function in messages.
   Function(lua_State* L, int slot, std::string key, std::string callee);
 
-  // f(arguments...) -> exactly values.size() finite numbers.
-  void numbers(std::span<const double> arguments, std::span<double> values) const;
+  // f(arguments...) -> exactly values.size() numbers, finite but where `infinite` ones are allowed.
+  void numbers(std::span<const double> arguments, std::span<double> values, bool infinite = false) const;
   std::vector<double> numbers(std::span<const double> arguments, std::size_t count) const;
   double number(std::span<const double> arguments) const { return numbers(arguments, 1)[0]; }
 

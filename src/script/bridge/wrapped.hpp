@@ -52,7 +52,6 @@ template <> struct Wrapped<scene::Part> : Called<"part"> {};
 template <> struct Wrapped<scene::Scene> : Called<"scene"> {};
 template <> struct Wrapped<scene::Contact> : Called<"contact"> {};
 template <> struct Wrapped<Rigid> : Called<"rigid"> {};
-template <> struct Wrapped<scene::Friction> : Called<"friction"> {};  // without a value: a function, kept with the object
 template <> struct Wrapped<Solver> : Called<"solver"> {};
 template <> struct Wrapped<scene::Solution> : Called<"solution"> {};
 

@@ -20,7 +20,7 @@ const std::vector<Group>& groups() {
   static const std::vector<Group> all = {
       {"Scenes and bodies", {"dotyk.material", "dotyk.body", "dotyk.scene"}, {"material", "body", "part", "scene"}},
       {"Meshes", {"dotyk.mesh.", "dotyk.refinement", "dotyk.adapt"}, {"mesh", "refinement"}},
-      {"Contact and friction", {"dotyk.rigid.", "dotyk.friction."}, {"contact", "rigid", "friction"}},
+      {"Contact and friction", {"dotyk.rigid.", "dotyk.friction."}, {"contact", "rigid"}},
       {"Solvers", {"dotyk.solve", "dotyk.solver.", "dotyk.all_solutions", "dotyk.work_precision"}, {"solver"}},
       {"Solutions and pictures", {"dotyk.chart"}, {"solution"}},
       {"Beams, plates, channels, and laws of supports",

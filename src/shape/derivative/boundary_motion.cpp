@@ -156,14 +156,14 @@ class ContactChanges {
   }
 
   void require_nodal() const {
-    const bool plain = dim_ == 2 && contact_.friction == scene::Friction::Kind::none;  // p1_p0's rows are then the nodal ones
+    const bool plain = dim_ == 2 && !contact_.tangential->rubs();  // p1_p0's rows are then the nodal ones
     if (contact_.discretisation.multipliers != contact::Multipliers::nodal && !plain)
       throw InputError(contact_.name + " has multipliers = \"P1-P0\" and moves: how its rows, integrals over facets and cells, change "
                                        "is not known; take \"nodal\", or keep its nodes at rest");
   }
 
   void require_unmeasured() const {
-        if (!contact_.normal->stop() || contact_.tangential->acts())
+    if (!contact_.normal->stop() || contact_.tangential->elastic())
       throw InputError(contact_.name + " has laws per length or area and moves: how its nodes' shares change these is not known; take Signorini's law with "
                                        "given or Coulomb friction, or keep its nodes at rest");
   }
@@ -187,15 +187,15 @@ class ContactChanges {
   }
 
   void friction() {
-    if (contact_.friction == scene::Friction::Kind::none) return;
+    if (!contact_.tangential->rubs()) return;
     const std::vector<double> weight = weights(contact_, derivatives_, moving_.V);
     for (const scene::FrictionRows& rows : model_.friction[index_]) {
       const int k = rows.cell.jumps.front().row;  // nodal: a cell is a node's surroundings
       for (int i = 0; i < rows.count; ++i)
         turn(rows.row[i], k, scene::free_tangent_derivative(free_[k], contact_.rows[k].normal, derivatives_[k].normal, rows.direction[i], dim_), 0);
-      if (contact_.friction != scene::Friction::Kind::tresca || !std::isfinite(rows.cell.bound)) continue;
+      if (!contact_.tangential->tresca() || !std::isfinite(rows.cell.bound)) continue;
       for (const contact::Term& node : rows.cell.nodes)
-        changes_.bound[rows.row[0]] += node.weight * contact_.friction_value[node.row] * weight[node.row];
+        changes_.bound[rows.row[0]] += node.weight * contact_.tangential[node.row].numbers[0] * weight[node.row];
     }
   }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "problem/uniqueness.hpp"
 #include "base/error.hpp"
 #include "elasticity/shape_derivative.hpp"
 #include "scene/result/load_derivative.hpp"
@@ -15,7 +16,7 @@ using algebra::Vector;
 void require_given(const problem::Problem& problem) {
   for (const problem::FrictionGroup& group : problem.friction)
     for (int p = 0; p < group.points(); ++p)
-      if (group.law->bound_slope(p) > 0)
+      if (group.law->follows(p))
         throw InputError(group.name + " has Coulomb friction, whose solutions are not those of least energy; differentiate the energy by "
                                       "its solution's derivative");
 }
@@ -33,9 +34,8 @@ class Compliance final : public Quantity {
   std::string name() const override { return "compliance"; }
 
   double value(const DesignState& state) const override {
-    for (const auto& contact : state.scene().contacts)
-      if (contact->friction == scene::Friction::Kind::coulomb)
-        throw InputError("compliance is minus the least energy, and Coulomb's friction has none; take another quantity, a function of the design say");
+    if (problem::has_coulomb(state.solution()->model().problem))
+      throw InputError("compliance is minus the least energy, and Coulomb's friction has none; take another quantity, a function of the design say");
     return -(state.solution()->energy() + state.solution()->friction_energy());
   }
 

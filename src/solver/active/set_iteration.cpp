@@ -35,7 +35,7 @@ bool stick(const Problem& problem, const Vector& moved, std::vector<char>& activ
   for (const auto& [group, k, first, n] : problem.friction_points()) {
     if (active[first] || !(moved.segment(first, group.components).norm() > kApproaches)) continue;
     std::fill_n(active.begin() + first, group.components, char(1));
-    if (n >= 0 && group.law->bound_slope(k) > 0) active[n] = 1;
+    if (n >= 0 && group.law->follows(k)) active[n] = 1;
     any = true;
   }
   return any;

@@ -156,7 +156,7 @@ std::optional<FrictionalMotion> stopped_by_friction_alone(const Problem& problem
   Problem smooth = problem;
   std::erase_if(smooth.friction, [](const FrictionGroup& group) {
     for (int k = 0; k < group.points(); ++k)
-      if (group.law->bound_slope(k) > 0) return true;
+      if (group.law->follows(k)) return true;
     return false;
   });
   if (problem.blocks.empty() || smooth.friction.size() == problem.friction.size()) return std::nullopt;

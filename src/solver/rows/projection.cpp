@@ -14,7 +14,7 @@ Vector friction_bounds(const Problem& problem, const Vector& lambda) {
 Vector no_slip_bounds(const Problem& problem) {
   std::vector<double> bounds;
   for (const auto& [group, k, first, n] : problem.friction_points())
-    bounds.push_back(group.law->bound_slope(k) > 0 ? kNoSlip : group.law->bound(k, 0));
+    bounds.push_back(group.law->follows(k) ? kNoSlip : group.law->bound(k, 0));
   return Eigen::Map<const Vector>(bounds.data(), static_cast<Eigen::Index>(bounds.size()));
 }
 

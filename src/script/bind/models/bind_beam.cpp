@@ -7,10 +7,6 @@
 namespace dotyk::script {
 using problem::LawChoice;
 
-Key law_key(const char* name, const char* help) { return key::object<LawChoice>(name, help).otherwise("free"); }
-
-LawChoice law(const Arguments& from, const char* name) { return from.has(name) ? *from.object<LawChoice>(name) : LawChoice{}; }
-
 bool stands_somewhere(const Arguments& from, const char* name) {
   const std::string at = std::string(name) + "_at";
   if (!from.has(at)) return false;
@@ -45,11 +41,11 @@ void take_foundation(Call& call, Beam& beam) {
     if (call.has("foundation_at")) throw InputError("'foundation_at' is where the foundation stands, and there is none; give 'foundation', a law of dotyk.law or a function of x");
     return;
   }
+  const LawOfPlace law = law_field_without_normal(call, "foundation");
   const std::optional<Field> at = call.has("foundation_at") ? std::optional<Field>(call.field("foundation_at")) : std::nullopt;
   for (const double x : beam::nodes(beam)) {
     const std::vector<double> point{x};
-    const auto given = call.holds<LawChoice>("foundation") ? call.object<LawChoice>("foundation") : call.function("foundation").object<LawChoice>(point);
-    beam.foundation.push_back({*given, at ? (*at)(point)[0] : 0});
+    beam.foundation.push_back({law(point), at ? (*at)(point)[0] : 0});
   }
 }
 
@@ -185,7 +181,7 @@ void bind_beam(Library& library) {
                   "  left = { deflection = dotyk.law.signorini() }, right = { deflection = dotyk.law.signorini() } }\n"
                   "print(dotyk.solve(b):deflection(0.5))",
        .arguments = {key::table(
-           {key::either("foundation", {key::object<LawChoice>("", ""), key::function("", "")},
+           {law_field_key("foundation",
                         "a law per length about the deflection, or a function of x that gives one; taken at the nodes, each for half of the cells about it").otherwise("none"),
             key::field("foundation_at", "where it stands: the law is about the deflection less this; a number or a function of x").unit("length").otherwise("0"),
             key::positive("length", "of the beam, from x = 0").unit("length").into(&Beam::length),

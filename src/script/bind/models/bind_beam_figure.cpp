@@ -40,7 +40,11 @@ std::string render_law(Call& call) {
   return draw(call, figure::compose(figure::view(s), find_support(s.beam(), call, "support"), side(call), read_units(call)));
 }
 
-std::string render_support_law(Call& call) { return draw(call, figure::compose(*call.self<LawChoice>(), side(call), read_units(call))); }
+std::string render_support_law(Call& call) {
+  const LawChoice& law = *call.self<LawChoice>();
+  if (std::any_of(law.numbers.begin(), law.numbers.end(), [](double n) { return std::isnan(n); })) throw InputError("a number of this law is a function of the place; its graph is that of numbers");
+  return draw(call, figure::compose(law, side(call), read_units(call)));
+}
 
 // As it is now, with the load along it.
 figure::BeamView view_now(const CalledLoads& called) {

@@ -15,20 +15,15 @@ plate::Field in_the_plane(const script::Field& field) {
   return [field](double x, double y) { return field(std::vector<double>{x, y})[0]; };
 }
 
-Key edge_law_key(const char* name, const char* help) {
-  return key::either(name, {key::object<LawChoice>("", "a law of dotyk.law"), key::function("", "f(x, y) → a law")}, help).otherwise("free");
-}
-
 std::vector<Key> edge_keys() {
-  return {edge_law_key("rotation", "of the slope along the outward normal, per length: a law of dotyk.law but breaking, or f(x, y) → law"),
-          edge_law_key("deflection", "of the deflection, per length: the same")};
+  return {law_field_key("rotation", "of the slope along the outward normal, per length: a law of dotyk.law but breaking, or f(x, y) → law"),
+          law_field_key("deflection", "of the deflection, per length: the same")};
 }
 
 plate::LawField edge_law(const Arguments& from, const char* name) {
-  if (!from.has(name)) return {};
-  if (from.holds<LawChoice>(name)) return [law = *from.object<LawChoice>(name)](double, double) { return law; };
-  const Function function = from.function(name);
-  return [function](double x, double y) { return *function.object<LawChoice>(std::vector<double>{x, y}); };
+  const LawOfPlace law = law_field_without_normal(from, name);
+  if (!law) return {};
+  return [law](double x, double y) { return law(std::array{x, y}); };
 }
 
 plate::EdgeSupport edge(const Arguments& from, std::string part, std::vector<mesh::Facet> facets) {

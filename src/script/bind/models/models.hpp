@@ -16,13 +16,23 @@ struct BeamResult {
   const beam::Solution& solution() const { return *branches[shown].solution; }
 };
 
+// A number that is a function of the place is NaN; the function is kept with the object under the number's name.
 template <> struct Wrapped<problem::LawChoice> : Called<"law"> {};
 template <> struct Wrapped<beam::Beam> : Called<"beam"> {};
 template <> struct Wrapped<BeamResult> : Called<"beam_solution"> {};
 
-// A key for a law of dotyk.law; the law given, else free.
+// A key for a law of dotyk.law at one point; the law given, else free. Throws InputError where it is friction that follows a normal force, or of functions.
 Key law_key(const char* name, const char* help);
 problem::LawChoice law(const Arguments& from, const char* name);
+// Along a part a law may also be a function of the place that gives laws. Null where none is given; for use during the call only.
+using LawOfPlace = std::function<problem::LawChoice(std::span<const double>)>;
+Key law_field_key(const char* name, const char* help);
+LawOfPlace law_field(const Arguments& from, const char* name);
+// The same of beams and plates, which have no friction that follows a normal force.
+LawOfPlace law_field_without_normal(const Arguments& from, const char* name);
+// The keys of a law's numbers, numbers or functions, and the law that a call gives.
+std::vector<Key> law_number_keys(const problem::LawSpec& spec);
+Given<problem::LawChoice> make_law(Call& call, const problem::LawSpec& spec);
 // Is the key for where the law `name` stands given? Throws InputError where there is no such law that could be there.
 bool stands_somewhere(const Arguments& from, const char* name);
 // A constant, or a function, which of(its field) makes of it; as they are where the key is not given.

@@ -121,16 +121,8 @@ Self slide(Call& call) {
 Self part_support(Call& call) {
   if (!call.has("normal") && !call.has("tangential")) throw InputError("name at least one law: normal or tangential");
   const auto part = call.self<Part>();
-  if (!call.holds<scene::Friction>("tangential")) {
-    scene::support(*part, law(call, "normal"), law(call, "tangential"));
-    return call.give_self();
-  }
-  const bool varies = !call.object<scene::Friction>("tangential")->value;
-  const scene::Friction rubbing = friction(call, "tangential", part->body->dimension());
-  problem::LawChoice tangential{rubbing.kind == scene::Friction::Kind::tresca ? &problem::laws::friction : &problem::laws::coulomb};
-  if (!varies) tangential.numbers[0] = rubbing.value({});
-  if (std::isinf(tangential.numbers[0])) tangential = {&problem::laws::prescribed};
-  scene::support(*part, law(call, "normal"), tangential, varies ? rubbing.value : elasticity::ScalarField());
+  const int dimension = part->body->dimension();
+  scene::support(*part, given_law(call, "normal", dimension), given_law(call, "tangential", dimension));
   return call.give_self();
 }
 
@@ -241,8 +233,8 @@ void bind_part(Library& library) {
                        "exceed their limit most break first, until none does; s.reason tells what became of it. Results: solution:support, "
                        "solution:reaction.",
                .example = "block:part\"bottom\":support{ normal = dotyk.law.one_sided_elastic(1e3), tangential = dotyk.law.friction(2) }",
-               .arguments = {key::table({key::object<problem::LawChoice>("normal", "the law along the normal").otherwise("free"),
-                                         tangential_key("the law along the tangents")})},
+               .arguments = {key::table({law_field_key("normal", "the law along the normal"),
+                                         law_field_key("tangential", "the law along the tangents")})},
                .run = part_support})
       .text([](const Part& p) { return text("part ", p.label(), ": ", p.facets.size(), " facets"); });
 }

@@ -21,11 +21,10 @@ std::shared_ptr<Scene> make_scene(Call& call) { return scene::make_scene(call.it
 
 scene::InterfaceLaws laws(const Call& call, const Scene& scene) {
   if (call.has("friction") && call.has("tangential")) throw InputError("'friction' is a tangential law; it is given with 'tangential'");
-  scene::InterfaceLaws laws;
-  if (call.has("normal")) laws.normal = *call.object<problem::LawChoice>("normal");
-  if (call.holds<problem::LawChoice>("tangential")) laws.tangential = *call.object<problem::LawChoice>("tangential");
-  laws.friction = friction(call, call.has("friction") ? "friction" : "tangential", scene.dimension());
-  return laws;
+  if (call.holds<problem::LawChoice>("friction") && !(*call.object<problem::LawChoice>("friction"))->rubs())
+    throw InputError(text("'friction' is a law of friction, and this is ", problem::describe(*call.object<problem::LawChoice>("friction")), "; give it as tangential"));
+  return {given_law(call, "normal", scene.dimension(), {&problem::laws::signorini}),
+          given_law(call, call.has("friction") ? "friction" : "tangential", scene.dimension())};
 }
 
 /// None where nodes decide.
@@ -108,32 +107,20 @@ std::shared_ptr<Rigid> rigid_ball(Call& call) {
   return std::make_shared<Rigid>(Rigid{contact::RigidBall{point_of(center), call.number("radius")}, static_cast<int>(center.size())});
 }
 
-Given<scene::Friction> make_friction(Call& call, scene::Friction::Kind kind) {
-  auto law = std::make_shared<scene::Friction>(scene::Friction{kind, {}});
-  if (!call.is("value", LUA_TFUNCTION)) law->value = [value = call.number("value")](const mesh::Point&) { return value; };
-  return call.give_keeping(law, {"value"});
-}
-
 void bind_friction(Library& library) {
   library.module("dotyk.friction", "Friction laws for scene:contact and part:support. A normal and a tangential force at each contact node, or, for given friction, multipliers = \"P1-P0\" of scene:contact.");
   library.function({.name = "dotyk.friction.tresca",
                     .help = "Given friction (Tresca): the shear is at most g, whatever the pressure. math.huge: no slip at all.",
                     .setup = setup::two_blocks(),
                     .example = "local c = scene:contact{ upper:part \"bottom\", lower:part \"top\", friction = dotyk.friction.tresca(2.5) }",
-                    .arguments = {key::either("value", {key::number("", "").at_least(0).or_infinite(), key::function("", "")},
-                                              "bound, a number or a function of the coordinates").unit("force/length (2-D), force/area (3-D)").required()},
-                    .run = [](Call& call) { return make_friction(call, scene::Friction::Kind::tresca); }});
+                    .arguments = law_number_keys(problem::laws::friction),
+                    .run = [](Call& call) { return make_law(call, problem::laws::friction); }});
   library.function({.name = "dotyk.friction.coulomb",
                     .help = "Coulomb friction: the shear is at most mu times the pressure.",
                     .setup = setup::two_blocks(),
                     .example = "local c = scene:contact{ upper:part \"bottom\", lower:part \"top\", friction = dotyk.friction.coulomb(0.3) }",
-                    .arguments = {key::either("value", {key::number("", "").at_least(0), key::function("", "")},
-                                              "coefficient, a number or a function of the coordinates").required()},
-                    .run = [](Call& call) { return make_friction(call, scene::Friction::Kind::coulomb); }});
-  library.type<scene::Friction>("A friction law.").text([](const scene::Friction& f) {
-    return text(f.kind == scene::Friction::Kind::tresca ? "given friction, bound " : "Coulomb friction, coefficient ",
-                f.value ? text(f.value({})) : "a function");
-  });
+                    .arguments = law_number_keys(problem::laws::coulomb),
+                    .run = [](Call& call) { return make_law(call, problem::laws::coulomb); }});
 }
 
 void bind_rigid(Library& library) {
@@ -224,9 +211,9 @@ void bind_scene(Library& library) {
                .example = "local wall = dotyk.rigid.plane{ point = {1,0}, normal = {-1,0} }\n"
                           "local w = scene:contact{ upper:part \"right\", rigid = wall }\n"
                           "local c = scene:contact{ upper:part \"bottom\", lower:part \"top\", pairing = \"mortar\" }",
-               .arguments = {key::table({key::object<problem::LawChoice>("normal", "a law of dotyk.law but load and breaking").otherwise("signorini"),
-                                         tangential_key("a law of dotyk.friction, or of dotyk.law: free, prescribed(0), elastic, friction, in 2-D capped_elastic"),
-                                         key::object<scene::Friction>("friction", "dotyk.friction.tresca(g) or dotyk.friction.coulomb(mu), short for tangential").otherwise("none"),
+               .arguments = {key::table({law_field_key("normal", "a law of dotyk.law but load and breaking").otherwise("signorini"),
+                                         law_field_key("tangential", "a law of dotyk.friction, or of dotyk.law: free, prescribed(0), elastic, friction, in 2-D capped_elastic"),
+                                         key::object<problem::LawChoice>("friction", "dotyk.friction.tresca(g) or dotyk.friction.coulomb(mu), short for tangential").otherwise("none"),
                                          key::object<Rigid>("rigid", "a rigid obstacle in place of the second part"),
                                          key::field("gap", "added to the geometric gap: more than 0 for a clearance (a pin in a hole), less than 0 for an interference (a press or shrink fit, the preload of a bolt); a number or a function of the coordinates").unit("length").otherwise("0"),
                                          pairing_key(),

@@ -90,17 +90,12 @@ inline elasticity::ScalarField kept_field(const Call& call, const char* name, co
   return scalar_field(Field(call.kept_function(call.slot(name), kept).at(0), 1), dimension);
 }
 
-// The law of dotyk.friction given as `name`.
-inline scene::Friction friction(const Call& call, const char* name, int dimension) {
-  if (!call.holds<scene::Friction>(name)) return {};
-  scene::Friction law = *call.object<scene::Friction>(name);
-  if (!law.value) law.value = kept_field(call, name, "value", dimension);
-  return law;
-}
-
-// A key for a law along the tangents.
-inline Key tangential_key(const char* help) {
-  return key::either("tangential", {key::object<problem::LawChoice>("", ""), key::object<scene::Friction>("", "")}, help).otherwise("free");
+// The law given as `name`, else another.
+inline scene::GivenLaw given_law(const Arguments& from, const char* name, int dimension, problem::LawChoice otherwise = {}) {
+  scene::GivenLaw given(otherwise);
+  if (LawOfPlace law = law_field(from, name))
+    given.varies = [law = std::move(law), n = static_cast<std::size_t>(dimension)](const mesh::Point& x) { return law({x.data(), n}); };
+  return given;
 }
 
 // Throws InputError where memory has no room for the mesh refined so many times, or solvers of one machine for its unknowns.
