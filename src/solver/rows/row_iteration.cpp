@@ -223,10 +223,12 @@ bool astray(const RowIteration& iteration) {
 }
 
 /// Rounding of the condensed problem may leave the state further from its laws and from equilibrium than the method does: more than `allowed`.
-void refine_rounded(const Problem& problem, const CondensedProblem& condensed, double allowed, Result& result) {
+void refine_rounded(const RowIteration& iteration, double allowed, Result& result) {
+  const Problem& problem = iteration.problem;
   if (!result.converged || problem.blocks.empty()) return;
   problem::Residual r = problem::residual(problem, result.state);
-  if (std::max(r.laws(), r.equilibrium) > allowed && refine(problem, condensed, result, r)) result.reason += "; refined from the displacements";
+  if (r.equilibrium > kRounded) result.state.u = iteration.displacements(iteration.at()), r = problem::residual(problem, result.state);
+  if (std::max(r.laws(), r.equilibrium) > allowed && refine(problem, iteration.condensed, result, r)) result.reason += "; refined from the displacements";
 }
 
 }  // namespace
@@ -273,7 +275,7 @@ Result solve(const Problem& problem, const CondensedProblem& condensed, const Ro
   result.method = method.name();
   result.clock.iterate = watch.lap();
   result.state.u = iteration.recovered(iteration.at());
-  refine_rounded(problem, condensed, std::max(kRounded, method.tol), result);
+  refine_rounded(iteration, std::max(kRounded, method.tol), result);
   result.clock.recover = watch.lap();
   result.factor_bytes = condensed.factor_bytes();
   result.ordering = condensed.ordering();
