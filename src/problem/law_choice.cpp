@@ -62,7 +62,7 @@ void require_valid(const LawChoice& law, const std::string& where) {
   for (int i = 0; i < law.spec->count(); ++i) {
     const LawNumber& n = law.spec->numbers[i];
     const double value = law.numbers[i];
-    const bool no_slip = law->rubs() && value == Law::kUnbounded;
+    const bool no_slip = law->rubs() && n.role == LawNumber::Role::bound && value == Law::kUnbounded;
     if ((!std::isfinite(value) && !no_slip) || value < n.least)
       throw InputError(text(law.spec->words, " law: ", n.name, " is ", std::isnan(value) ? "not a number" : text(value), where, "; it must be ",
                             n.least == 0 ? "zero or positive, and " : n.least > 0 ? text(n.least, " or more, and ") : "", "finite"));
